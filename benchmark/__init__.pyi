@@ -31,7 +31,7 @@ from .inspection.recordings import DataRequest, data_totals, next_data_step
 from .inspection.state import RunState, run_state
 from .merging.merge import merge
 from .plugins import load_plugin, load_plugins
-from .problems.base import Answer, InvalidPredictionError, Problem
+from .problems.base import InvalidPredictionError, Problem, Solution
 from .problems.body import Body, JointAngles, JointPositions
 from .problems.cluster import ClusterProblem, Clusters
 from .problems.impute import FilledRecordings, ImputeProblem
@@ -75,7 +75,6 @@ __all__ = [
     "MODELS",
     "TASKS",
     "Address",
-    "Answer",
     "Backend",
     "Body",
     "Case",
@@ -101,6 +100,7 @@ __all__ = [
     "RunState",
     "Samples",
     "Seeds",
+    "Solution",
     "Solved",
     "Status",
     "SynthesiseProblem",

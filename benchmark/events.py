@@ -33,25 +33,25 @@ class EventLog:
         self._write = write
         self._counts: Counter[str] = Counter()
 
-    def run_started(self, folder: Path, jobs: int, in_store: int) -> None:
+    def tell_run_start(self, folder: Path, jobs: int, in_store: int) -> None:
         """Tell the run directory, how many jobs are planned, and how many it holds already."""
-        self._event("run-started", out=str(folder), jobs=jobs, in_store=in_store)
+        self._write_event("run-started", out=str(folder), jobs=jobs, in_store=in_store)
 
-    def job_started(self, address: Address) -> None:
+    def tell_job_start(self, address: Address) -> None:
         """Tell that a job was handed to a worker."""
-        self._event("job-started", **address._asdict())
+        self._write_event("job-started", **address._asdict())
 
-    def job_ended(self, address: Address, status: str, seconds: float, message: str) -> None:
+    def tell_job_end(self, address: Address, status: str, seconds: float, message: str) -> None:
         """Tell how a job ended, and after how many seconds of work."""
         self._counts[status] += 1
         outcome = {"status": status, "seconds": round(seconds, 3), "message": message}
-        self._event("job-ended", **address._asdict(), **outcome)
+        self._write_event("job-ended", **address._asdict(), **outcome)
 
-    def run_ended(self, code: ExitCode) -> None:
+    def tell_run_end(self, code: ExitCode) -> None:
         """Tell how many jobs of this run ended in which way, and its exit code."""
-        self._event("run-ended", counts=dict(self._counts), exit_code=int(code))
+        self._write_event("run-ended", counts=dict(self._counts), exit_code=int(code))
 
-    def _event(self, name: str, **about: Any) -> None:
+    def _write_event(self, name: str, **about: Any) -> None:
         now = datetime.now(UTC).isoformat(timespec="milliseconds")
         line = json.dumps({"event": name, "time": now, **about}, allow_nan=False)
         self._write(f"{line}\n")

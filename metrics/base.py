@@ -67,7 +67,7 @@ class Score:
 OutcomeT = TypeVar("OutcomeT", Imputation, Synthesis, Clustering, Recovery)
 
 
-def _always(outcome: object) -> bool:
+def _is_defined(outcome: object) -> bool:
     del outcome
     return True
 
@@ -158,7 +158,7 @@ def metric(
     range: str = "",  # noqa: A002 - the word of the page
     source: str = "",
     needs_variance: bool = False,
-    defined: Callable[[Any], bool] = _always,
+    defined: Callable[[Any], bool] = _is_defined,
     name: str = "",
 ) -> Callable[[Callable[[OutcomeT], Score]], Metric[OutcomeT]]:
     """Declare the function below as a metric; it is what this decorator returns.

@@ -86,29 +86,29 @@ def fill(
     entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap)
     reading = filling.Reading(rate, min_likelihood, insert_missing, choose_missing_rule(missing))
 
-    def check(source: InputFile) -> None:
-        _require_fillable(source, model, outputs[source.path])
+    def check(input_file: InputFile) -> None:
+        _require_fillable(input_file, model, outputs[input_file.path])
 
     inputs, refused = filling.read_input_files(files, train or (), reading, entries, check)
     codes = [_explain_refusal(error, console) for error in refused]
     try:
         with filling.Workers(bench.n_cores(), plugins) as workers:
-            for source in inputs:
-                paths = outputs[source.path]
-                codes.append(_fill_file(source, model, workers, budget, paths, console))
+            for input_file in inputs:
+                paths = outputs[input_file.path]
+                codes.append(_fill_file(input_file, model, workers, budget, paths, console))
     except KeyboardInterrupt:
         console.print("interrupted; files that were filled are kept, others were not written")
         raise
     raise typer.Exit(max(codes, default=ExitCode.OK))
 
 
-def _require_fillable(source: InputFile, model: str, outputs: OutputPaths) -> None:
+def _require_fillable(input_file: InputFile, model: str, outputs: OutputPaths) -> None:
     """Refuse a file that the model cannot fill, or whose outputs cannot be written."""
     if model == filling.BEST:
-        filling.require_room(source.problem)
+        filling.require_room(input_file.problem)
     else:
-        filling.require_candidate(model, source.problem)
-    filling.require_writable(source, outputs)
+        filling.require_candidate(model, input_file.problem)
+    filling.require_writable(input_file, outputs)
 
 
 def _explain_refusal(error: Exception, console: LiteralConsole) -> ExitCode:
@@ -120,7 +120,7 @@ def _explain_refusal(error: Exception, console: LiteralConsole) -> ExitCode:
 
 
 def _fill_file(
-    source: InputFile,
+    input_file: InputFile,
     model: str,
     workers: Workers,
     budget: float,
@@ -129,24 +129,24 @@ def _fill_file(
 ) -> ExitCode:
     """Fill a file, say why if that is impossible, and return the exit code for it."""
     try:
-        _fill_and_write(source, model, workers, budget, outputs, console)
+        _fill_and_write(input_file, model, workers, budget, outputs, console)
     except (UsageError, FormatError, OSError) as error:
         return explain(error)
     return ExitCode.OK
 
 
 def _fill_and_write(
-    source: InputFile,
+    input_file: InputFile,
     model: str,
     workers: Workers,
     budget: float,
     outputs: OutputPaths,
     console: LiteralConsole,
 ) -> None:
-    with console.status(f"{source.path.name}: comparing models") as status:
+    with console.status(f"{input_file.path.name}: comparing models") as status:
         show = status.update if console.is_terminal else _print_now_and_then(console)
-        watch = _make_watch(source.path.name, show)
-        filled = filling.fill(source, model, workers, budget, watch)
+        watch = _make_watch(input_file.path.name, show)
+        filled = filling.fill(input_file, model, workers, budget, watch)
     page = filling.compose_page(filled, _quote_command())
     filling.write(filled, outputs, reports.render_filled(page))
     _print_result(filled, outputs, console)
@@ -181,7 +181,7 @@ def _print_result(filled: FilledFile, outputs: OutputPaths, console: LiteralCons
         *filling.list_remarks(filled),
     )
     for text in filter(None, sentences):
-        console.print(f"{filled.source.path.name}: {text}", soft_wrap=True, highlight=False)
+        console.print(f"{filled.input_file.path.name}: {text}", soft_wrap=True, highlight=False)
     for path in outputs:
         console.print(f"  {path}", soft_wrap=True, highlight=False)
 

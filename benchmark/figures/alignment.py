@@ -26,9 +26,9 @@ def draw_alignments(solved: Solved[ClusterProblem, Clusters], /) -> Sequence[Ill
     component = _second_component([recording.values for recording in problem.train])
     recorded = [recording.times - recording.times[0] for recording in problem.train]
     panels = [_panel("as recorded", "time, s", recorded, component, problem.truth)]
-    for label, answer in solved.answers.items():
-        if answer.alignment is not None:
-            cycles = _cycles(answer.alignment)
+    for label, solution in solved.solutions.items():
+        if solution.alignment is not None:
+            cycles = _cycles(solution.alignment)
             title = f"aligned by {label}"
             panels.append(_panel(title, "cycles", cycles, component, problem.truth))
     caption = (

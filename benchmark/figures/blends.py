@@ -32,21 +32,21 @@ def draw_blends(
     channels : tuple of str
     """
     return [
-        _picture(solved, label, answer, channels)
-        for label, answer in solved.answers.items()
-        if answer.blend is not None
+        _picture(solved, label, solution, channels)
+        for label, solution in solved.solutions.items()
+        if solution.blend is not None
     ]
 
 
 def _picture(
     solved: Solved[ClusterProblem, Clusters],
     label: str,
-    answer: Clusters,
+    solution: Clusters,
     channels: Sequence[str],
 ) -> Illustration:
-    problem, blend = solved.problem, answer.blend
+    problem, blend = solved.problem, solution.blend
     assert blend is not None
-    first, second = (_name(problem, answer, cluster) for cluster in blend["blended"].tolist())
+    first, second = (_name(problem, solution, cluster) for cluster in blend["blended"].tolist())
     one, between, other = blend["blend"]
     recording = problem.train[0]
     times = np.arange(len(between)) * np.diff(recording.times).mean()
@@ -71,8 +71,8 @@ def _panel(motion: Recording, channel: str, values: dict[str, np.ndarray]) -> Pa
     return Panel(channel, "time, s", motion.units[column], tuple(curves))
 
 
-def _name(problem: ClusterProblem, answer: Clusters, cluster: int) -> str:
+def _name(problem: ClusterProblem, solution: Clusters, cluster: int) -> str:
     """Return the cluster's number and the style of most of its recordings."""
-    members = np.flatnonzero(answer.labels == cluster)
+    members = np.flatnonzero(solution.labels == cluster)
     styles = Counter(problem.truth[k] for k in members)
     return f"cluster {cluster} ({styles.most_common(1)[0][0]})"

@@ -27,7 +27,7 @@ def draw_filled_channels(
     """
     recording, truth = solved.problem.given[0], solved.problem.truth[0]
     filled = {
-        label: np.where(recording.visible, np.nan, solved.answers[label].predictions[0].mean)
+        label: np.where(recording.visible, np.nan, solved.solutions[label].predictions[0].mean)
         for label in _of_interest(solved)
     }
     caption = (
@@ -49,8 +49,8 @@ def _of_interest(solved: Solved[ImputeProblem, FilledRecordings]) -> list[str]:
     """Return the labels that the paper has too, and the best of the others."""
     hidden, truth = ~solved.problem.given[0].visible, solved.problem.truth[0]
     errors = {
-        label: float(((answer.predictions[0].mean - truth)[hidden] ** 2).mean())
-        for label, answer in solved.answers.items()
+        label: float(((solution.predictions[0].mean - truth)[hidden] ** 2).mean())
+        for label, solution in solved.solutions.items()
     }
     papers = [label for label in errors if label in solved.papers]
     others = sorted(set(errors) - set(papers), key=errors.__getitem__)

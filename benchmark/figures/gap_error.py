@@ -32,8 +32,8 @@ def draw_gap_error(
     if not hidden.any():
         return ()
     errors = {
-        label: np.asarray(norm((answer.predictions[0].mean - truth)[hidden], axis=1))
-        for label, answer in solved.answers.items()
+        label: np.asarray(norm((solution.predictions[0].mean - truth)[hidden], axis=1))
+        for label, solution in solved.solutions.items()
     }
     best = sorted(errors, key=lambda label: float(errors[label].mean()))[:n_best]
     frames = np.asarray(np.flatnonzero(hidden) + 1, dtype=np.float64)

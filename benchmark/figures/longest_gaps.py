@@ -36,7 +36,7 @@ def draw_longest_gaps(
     """
     recording, truth = solved.problem.given[0], solved.problem.truth[0]
     hidden = ~recording.visible & np.isfinite(truth)
-    means = {label: answer.predictions[0].mean for label, answer in solved.answers.items()}
+    means = {label: solution.predictions[0].mean for label, solution in solved.solutions.items()}
     errors = {label: float(((m - truth)[hidden] ** 2).mean()) for label, m in means.items()}
     best = sorted(errors, key=errors.__getitem__)[:n_best]
     shown = {"truth": truth, **{b: np.where(hidden, means[b], np.nan) for b in best}}

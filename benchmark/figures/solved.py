@@ -1,4 +1,4 @@
-"""A problem with the answers of all entrants: what figures draw."""
+"""A problem with the solutions of all entrants: what figures draw."""
 
 from __future__ import annotations
 
@@ -6,26 +6,26 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
-from mocapbench.benchmark.problems.base import Answer, Problem
+from mocapbench.benchmark.problems.base import Problem, Solution
 from mocapbench.benchmark.problems.internals import Internals
 from mocapbench.datasets import Archive
 
 __all__ = ["Solved"]
 
 P = TypeVar("P", bound=Problem)  # type: ignore[type-arg]
-A = TypeVar("A", bound=Answer)
+A = TypeVar("A", bound=Solution)
 
 
 @dataclass(frozen=True, eq=False)
 class Solved(Generic[P, A]):
-    """One problem of a task, with the answers of all entrants.
+    """One problem of a task, with the solutions of all entrants.
 
     Parameters
     ----------
     task : str
         The task's name.
     problem : Problem
-    answers : mapping of str to Answer
+    solutions : mapping of str to Solution
         By label, of the type that belongs to the problem.
     internals : mapping of str to Internals
         Fitted quantities, by label.
@@ -43,7 +43,7 @@ class Solved(Generic[P, A]):
 
     task: str
     problem: P
-    answers: Mapping[str, A]
+    solutions: Mapping[str, A]
     internals: Mapping[str, Internals] = field(default_factory=dict)
     papers: Collection[str] = ()
     ranking: Sequence[str] = ()

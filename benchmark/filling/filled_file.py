@@ -33,7 +33,7 @@ class FilledFile:
 
     Parameters
     ----------
-    source : InputFile
+    input_file : InputFile
     model : str
         What filled it.
     prediction : PredictedEntries
@@ -47,7 +47,7 @@ class FilledFile:
         Whether no model filled a held-out gap in time, so that there was none to choose.
     """
 
-    source: InputFile
+    input_file: InputFile
     model: str
     prediction: PredictedEntries
     n_windows: int
@@ -58,7 +58,7 @@ class FilledFile:
     @property
     def recording(self) -> Recording:
         """The recording with the filled entries; others may still be hidden."""
-        request = self.source.request
+        request = self.input_file.request
         values = request.given.values.copy()
         values[request.target] = self.prediction.mean
         return request.given.with_values(values)
@@ -72,7 +72,7 @@ class FilledFile:
 
 
 def fill(
-    source: InputFile,
+    input_file: InputFile,
     model: str,
     workers: Workers,
     budget: float,
@@ -84,7 +84,7 @@ def fill(
 
     Parameters
     ----------
-    source : InputFile
+    input_file : InputFile
     model : str
         A registered name, or `BEST`.
     workers : Workers
@@ -98,16 +98,16 @@ def fill(
     UsageError
         If the model cannot fill these gaps, or fails to.
     """
-    problem = source.problem
+    problem = input_file.problem
     if model != BEST:
         require_candidate(model, problem)
-        return _fill_by_first(source, (model,), None, workers)
+        return _fill_by_first(input_file, (model,), None, workers)
     try:
         choice = choose(problem, workers, budget, watch)
     except NoneInTimeError:
-        filled = _fill_by_first(source, _find_interpolations(problem), None, workers)
+        filled = _fill_by_first(input_file, _find_interpolations(problem), None, workers)
         return replace(filled, uncompared=True)
-    return _fill_by_first(source, choice.ranking.order, choice, workers)
+    return _fill_by_first(input_file, choice.ranking.order, choice, workers)
 
 
 def _find_interpolations(problem: GapProblem) -> tuple[str, ...]:
@@ -117,18 +117,22 @@ def _find_interpolations(problem: GapProblem) -> tuple[str, ...]:
 
 
 def _fill_by_first(
-    source: InputFile, models: Sequence[str], choice: Choice | None, workers: Workers
+    input_file: InputFile, models: Sequence[str], choice: Choice | None, workers: Workers
 ) -> FilledFile:
     """Have the first of the models fill the file that can."""
     failed: list[tuple[str, str]] = []
-    problem = source.problem
+    problem = input_file.problem
     for model in models:
         one = _attempt_file(model, problem, workers)
         if one.prediction is not None:
-            return FilledFile(source, model, one.prediction, one.n_windows, choice, tuple(failed))
+            return FilledFile(
+                input_file, model, one.prediction, one.n_windows, choice, tuple(failed)
+            )
         failed.append((model, one.failure))
     name, failure = failed[0]
-    raise UsageError(f"{source.path}: {name} did not fill it: {failure}; choose another --model")
+    raise UsageError(
+        f"{input_file.path}: {name} did not fill it: {failure}; choose another --model"
+    )
 
 
 def _attempt_file(model: str, problem: GapProblem, workers: Workers) -> FillAttempt:

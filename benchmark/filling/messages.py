@@ -27,7 +27,7 @@ _FEW = 10
 
 def describe_fill(filled: FilledFile) -> str:
     """Return which model filled how much."""
-    request = filled.source.request
+    request = filled.input_file.request
     entries = format_count(int(request.target.sum()), "entry", "entries")
     return f"{filled.model} filled {entries} in {format_count(len(request.gaps), 'gap')}."
 
@@ -90,7 +90,7 @@ def list_remarks(filled: FilledFile) -> Iterator[str]:
             f"{filled.model} does not take a recording of this length: it was fitted to "
             f"{_count_windows(filled.n_windows)}."
         )
-    yield from _remark_on_hidden(filled.source.request)
+    yield from _remark_on_hidden(filled.input_file.request)
     if filled.choice:
         yield from _remark_on_choice(filled, filled.choice)
     if filled.prediction.variance is None:
@@ -185,7 +185,7 @@ def _describe_unknown(names: Sequence[str]) -> str:
 
 def _warn_of_doubts(filled: FilledFile) -> Iterator[str]:
     """Yield that little is visible, that models extrapolate or jump, and that numbers are odd."""
-    request = filled.source.request
+    request = filled.input_file.request
     yield from _warn_of_few_visible(filled)
     yield from _warn_of_lost_channels(filled)
     yield from _warn_of_ends(request)
@@ -196,11 +196,11 @@ def _warn_of_doubts(filled: FilledFile) -> Iterator[str]:
 
 
 def _warn_of_few_visible(filled: FilledFile) -> Iterator[str]:
-    given, target = filled.source.request.given, filled.source.request.target
+    given, target = filled.input_file.request.given, filled.input_file.request.target
     filling = target.any(axis=0)
     counts = given.visible[:, filling].sum(axis=0)
     least = int(counts.min())
-    if least < _FEW and not filled.source.train:
+    if least < _FEW and not filled.input_file.train:
         channel = np.array(given.channels)[filling][counts.argmin()]
         are = "is" if least == 1 else "are"
         yield (
@@ -211,9 +211,9 @@ def _warn_of_few_visible(filled: FilledFile) -> Iterator[str]:
 
 
 def _warn_of_lost_channels(filled: FilledFile) -> Iterator[str]:
-    given, target = filled.source.request.given, filled.source.request.target
+    given, target = filled.input_file.request.given, filled.input_file.request.target
     lost = np.flatnonzero(target.any(axis=0) & ~given.visible.any(axis=0))
-    train = filled.source.train
+    train = filled.input_file.train
     if not len(lost) or not train:
         return
     names = join_names([given.channels[channel] for channel in lost], _NAMED)
@@ -249,7 +249,7 @@ def _warn_of_ends(request: FillRequest) -> Iterator[str]:
 
 def _warn_of_jumps(filled: FilledFile) -> Iterator[str]:
     recording = filled.recording
-    jumps = find_jumps(recording, filled.source.request.target)
+    jumps = find_jumps(recording, filled.input_file.request.target)
     if jumps:
         frame, channel, size, largest = jumps[0]
         unit = f" {recording.units[channel]}".rstrip()

@@ -103,11 +103,11 @@ def write(filled: FilledFile, outputs: OutputPaths, page: str) -> None:
     OSError
         If a file cannot be written.
     """
-    source, (copy_path, table_path, page_path) = filled.source, outputs
+    input_file, (copy_path, table_path, page_path) = filled.input_file, outputs
     copy_path.parent.mkdir(parents=True, exist_ok=True)
     try:
-        source.format.write(
-            copy_path, filled.recording, like=source.path, replaced=source.request.target
+        input_file.format.write(
+            copy_path, filled.recording, like=input_file.path, replaced=input_file.request.target
         )
         write_text(table_path, csv_text(tabulate_entries(filled)))
         write_text(page_path, page)
@@ -124,8 +124,8 @@ def tabulate_entries(filled: FilledFile) -> pd.DataFrame:
     which is empty where the model has no predictive distribution. Angles are unwrapped: they go on
     from those beside the gap, where the file may have them 360° away.
     """
-    given = filled.source.request.given
-    frames, channels = np.nonzero(filled.source.request.target)
+    given = filled.input_file.request.given
+    frames, channels = np.nonzero(filled.input_file.request.target)
     return pd.DataFrame(
         {
             "frame": frames,

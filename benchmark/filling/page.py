@@ -34,13 +34,13 @@ _ROOT_PATH = frozenset({"root.tx", "root.ty", "root.tz"})
 
 def compose_page(filled: FilledFile, command: str) -> FilledPage:
     """Return the page of a filled file, made by ``command``."""
-    gaps, recording = filled.source.request.gaps, filled.recording
-    jumps = find_jumps(recording, filled.source.request.target)
+    gaps, recording = filled.input_file.request.gaps, filled.recording
+    jumps = find_jumps(recording, filled.input_file.request.target)
     shown = list(_choose_gaps(recording, gaps, jumps))
-    choice, units = filled.choice, _list_units(filled.source.request)
+    choice, units = filled.choice, _list_units(filled.input_file.request)
     ranking = choice.ranking if choice else None
     return FilledPage(
-        file=filled.source.path.name,
+        file=filled.input_file.path.name,
         headline=describe_fill(filled),
         verdict=describe_choice(filled),
         remarks=tuple(list_remarks(filled)),
@@ -113,7 +113,7 @@ def _is_in(jump: Jump, gap: Gap) -> bool:
 def _cut_curves(
     filled: FilledFile, recording: Recording, shown: Sequence[tuple[Gap, int]]
 ) -> Iterator[FilledCurve]:
-    request = filled.source.request
+    request = filled.input_file.request
     deviations = np.full(request.target.shape, np.nan)
     deviations[request.target] = filled.deviations
     for gap, channel in shown:
@@ -159,13 +159,13 @@ def _describe_gaps(gaps: Sequence[Gap], shown: Sequence[tuple[Gap, int]]) -> str
 
 def _draw_motion(filled: FilledFile, recording: Recording, gap: Gap) -> Panel | None:
     """Return stick figures from before a gap until after it, where the file has a skeleton."""
-    skeleton = filled.source.format.skeleton(filled.source.path)
+    skeleton = filled.input_file.format.skeleton(filled.input_file.path)
     # Few frames beside it, so that figures are of filled frames, too.
     frames = _surround(gap, len(recording.times), _LEAST_MOTION)
     part = recording.frames(np.arange(frames.start, frames.stop))
     whole = len(part.times) > 1 and part.visible.all() and set(part.channels) >= _ROOT_PATH
     if skeleton is None or not whole:
         return None
-    touched = filled.source.request.target[frames].any(axis=1)
+    touched = filled.input_file.request.target[frames].any(axis=1)
     groups = np.where(touched, FILLED_FRAMES, GIVEN_FRAMES).tolist()
     return strip(part, JointAngles(skeleton), groups)

@@ -57,10 +57,10 @@ def _frame(picture: Motions, frame: int, bodies: list[Points], title: str) -> Im
     size = (_SMOOTHING * WIDTH, _SMOOTHING * HEIGHT)
     image = Image.new("RGB", size, _SHADE if picture.hidden[frame] else _PAPER)
     pen = ImageDraw.Draw(image)
-    _ground(pen)
+    _draw_ground(pen)
     for places, colour, width in zip(bodies, (_INK, _HUE), (7, 4), strict=True):
-        _body(pen, _SMOOTHING * places, picture.parents, colour, width * _SMOOTHING)
-    _progress(pen, picture.hidden, frame)
+        _draw_body(pen, _SMOOTHING * places, picture.parents, colour, width * _SMOOTHING)
+    _draw_progress(pen, picture.hidden, frame)
     small = image.resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
     label = f"{frame * picture.interval:.2f} s" + (", hidden" if picture.hidden[frame] else "")
     words = ImageDraw.Draw(small)
@@ -69,12 +69,12 @@ def _frame(picture: Motions, frame: int, bodies: list[Points], title: str) -> Im
     return small.quantize(16)
 
 
-def _ground(pen: ImageDraw.ImageDraw) -> None:
+def _draw_ground(pen: ImageDraw.ImageDraw) -> None:
     height = _SMOOTHING * (HEIGHT - 1.5 * _MARGIN)
     pen.line((0, height, _SMOOTHING * WIDTH, height), _RULE, _SMOOTHING)
 
 
-def _body(
+def _draw_body(
     pen: ImageDraw.ImageDraw, places: Points, parents: tuple[int, ...], colour: str, width: int
 ) -> None:
     """Draw the bones, with round ends."""
@@ -85,7 +85,7 @@ def _body(
             pen.line([*places[parent].tolist(), x, y], colour, width)
 
 
-def _progress(pen: ImageDraw.ImageDraw, hidden: NDArray[np.bool_], frame: int) -> None:
+def _draw_progress(pen: ImageDraw.ImageDraw, hidden: NDArray[np.bool_], frame: int) -> None:
     """Draw a bar of all frames, the hidden ones shaded, with a mark at this one."""
     left, right = _SMOOTHING * 12, _SMOOTHING * (WIDTH - 12)
     top, bottom = _SMOOTHING * (HEIGHT - 24), _SMOOTHING * (HEIGHT - 12)

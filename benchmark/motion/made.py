@@ -37,8 +37,8 @@ def entrant_motion(task: Task, solved: Solved[Any, Any]) -> MadeMotion:
     UsageError
         If the problem is neither to fill nor to invent motion.
     """
-    ((label, answer),) = solved.answers.items()
-    recording, figure = _make_motion(solved.problem, answer)
+    ((label, solution),) = solved.solutions.items()
+    recording, figure = _make_motion(solved.problem, solution)
     on_page: Iterable[Callable[..., Any]] = task.page.figures
     same = (f for f in on_page if getattr(f, "func", f) is figure)  # perhaps a partial
     pictures: Sequence[Motions] = next(same, figure)(solved)
@@ -49,9 +49,9 @@ def entrant_motion(task: Task, solved: Solved[Any, Any]) -> MadeMotion:
 
 
 @singledispatch
-def _make_motion(problem: Problem[Any], answer: Any) -> tuple[Recording, Callable[..., Any]]:
+def _make_motion(problem: Problem[Any], solution: Any) -> tuple[Recording, Callable[..., Any]]:
     """Return what was made, and the figure that shows it."""
-    del answer
+    del solution
     raise UsageError(
         "expected a task that fills or invents motion, got one that does not "
         f"({type(problem).__name__})"
@@ -60,15 +60,15 @@ def _make_motion(problem: Problem[Any], answer: Any) -> tuple[Recording, Callabl
 
 @_make_motion.register
 def _fill_recording(
-    problem: ImputeProblem, answer: FilledRecordings
+    problem: ImputeProblem, solution: FilledRecordings
 ) -> tuple[Recording, Callable[..., Any]]:
-    given, mean = problem.given[0], answer.predictions[0].mean
+    given, mean = problem.given[0], solution.predictions[0].mean
     return given.with_values(np.where(given.visible, given.values, mean)), draw_filled_motion
 
 
 @_make_motion.register
 def _sample_motion(
-    problem: SynthesiseProblem, answer: Samples
+    problem: SynthesiseProblem, solution: Samples
 ) -> tuple[Recording, Callable[..., Any]]:
-    sample = replace(problem.train[0], times=problem.times, values=answer.values[0])
+    sample = replace(problem.train[0], times=problem.times, values=solution.values[0])
     return sample, draw_sampled_motion

@@ -1,4 +1,4 @@
-"""Arrays by name, the form in which the store keeps answers and internals of models."""
+"""Arrays by name, the form in which the store keeps solutions and internals of models."""
 
 from __future__ import annotations
 

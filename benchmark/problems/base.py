@@ -1,8 +1,8 @@
 """Problems: what a model may see, and apart from it what it may not.
 
-A problem asks a model for its answer (`Problem.solve`) and compares it with the truth
+A problem asks a model for its solution (`Problem.solve`) and compares it with the truth
 (`Problem.outcome`), so that no other module needs to know of which kind it is. Each kind of
-problem has a type of `Answer`, which turns into plain arrays and back for the store.
+problem has a type of `Solution`, which turns into plain arrays and back for the store.
 """
 
 from __future__ import annotations
@@ -17,25 +17,25 @@ from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.datasets import Recording, ToyProcess
 from mocapbench.metrics import Clustering, Imputation, Recovery, Synthesis
 
-__all__ = ["Answer", "InvalidPredictionError", "Problem"]
+__all__ = ["InvalidPredictionError", "Problem", "Solution"]
 
 
 class InvalidPredictionError(ValueError):
-    """A model answered with the wrong shape, a NaN, or a variance that is not positive."""
+    """A model returned the wrong shape, a NaN, or a variance that is not positive."""
 
 
-class Answer(Protocol):
-    """A model's answer to a problem, of the type that belongs to the kind of problem."""
+class Solution(Protocol):
+    """A model's solution to a problem, of the type that belongs to the kind of problem."""
 
     def to_arrays(self) -> Arrays:
-        """Return the answer as arrays by name."""
+        """Return the solution as arrays by name."""
 
     @classmethod
     def from_arrays(cls, arrays: Arrays) -> Self:
-        """Return the answer that `to_arrays` turned into ``arrays``; other names are ignored."""
+        """Return the solution that `to_arrays` turned into ``arrays``; other names are ignored."""
 
 
-A = TypeVar("A", bound=Answer)
+A = TypeVar("A", bound=Solution)
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,7 @@ class Problem(ABC, Generic[A]):
     control: ToyProcess | None = field(default=None, kw_only=True)
     parent: Recording | None = field(default=None, kw_only=True)
 
-    answer_type: ClassVar[type[Answer]]
+    solution_type: ClassVar[type[Solution]]
 
     def fit(self, model: Any) -> Model:
         """Fit ``model`` to what it may see, and give it what it needs besides."""
@@ -68,14 +68,14 @@ class Problem(ABC, Generic[A]):
 
     @abstractmethod
     def solve(self, model: Any, random_state: int) -> A:
-        """Return the answer of a fitted model that has the abilities required.
+        """Return the solution of a fitted model that has the abilities required.
 
         Raises
         ------
         InvalidPredictionError
-            If the answer is not a valid one.
+            If the solution is not a valid one.
         """
 
     @abstractmethod
-    def outcome(self, answer: A) -> Imputation | Synthesis | Clustering | Recovery:
-        """Compare an answer with the truth."""
+    def outcome(self, solution: A) -> Imputation | Synthesis | Clustering | Recovery:
+        """Compare a solution with the truth."""

@@ -1,4 +1,4 @@
-"""A transition from one style to another, as part of an answer.
+"""A transition from one style to another, as part of a solution.
 
 After Pan and Torresani 2009 (HLM), §4.2 and Figure 3.
 """
@@ -30,7 +30,7 @@ def blend_of(model: Blender, labels: NDArray[np.intp], n_channels: int) -> Array
     Raises
     ------
     InvalidPredictionError
-        If the model does not answer with finite frames of the recordings' channels.
+        If the model does not return finite frames of the recordings' channels.
     """
     used = np.unique(labels).tolist()
     if len(used) < 2:

@@ -21,7 +21,7 @@ __all__ = ["ClusterProblem", "Clusters"]
 
 @dataclass(frozen=True, eq=False)
 class Clusters:
-    """The answer to a `ClusterProblem`.
+    """The solution to a `ClusterProblem`.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class Clusters:
 
     @classmethod
     def from_arrays(cls, arrays: Arrays) -> Self:
-        """Return the answer that `to_arrays` turned into ``arrays``."""
+        """Return the solution that `to_arrays` turned into ``arrays``."""
         alignment = select_arrays(arrays, "cycle_length", "path-")
         blend = select_arrays(arrays, "blend", "blended")
         return cls(arrays["labels"], alignment or None, blend or None)
@@ -66,7 +66,7 @@ class ClusterProblem(Problem[Clusters]):
     truth: tuple[str, ...]
     skeleton: Skeleton
 
-    answer_type = Clusters
+    solution_type = Clusters
 
     def solve(self, model: Any, random_state: int) -> Clusters:
         """Return the clusters, and the alignment and the blend of a model that has them."""
@@ -77,9 +77,9 @@ class ClusterProblem(Problem[Clusters]):
         blend = blend_of(model, labels, n_channels) if "blends" in model.provides else None
         return Clusters(labels, alignment, blend)
 
-    def outcome(self, answer: Clusters) -> Clustering:
+    def outcome(self, solution: Clusters) -> Clustering:
         """Set the clusters beside the classes."""
-        return Clustering(np.array(self.truth), answer.labels)
+        return Clustering(np.array(self.truth), solution.labels)
 
     def _labels(self, model: Clusterer) -> NDArray[np.intp]:
         labels = np.asarray(model.labels_)

@@ -1,4 +1,4 @@
-"""The alignment of recordings with one common cycle, as part of an answer."""
+"""The alignment of recordings with one common cycle, as part of a solution."""
 
 from __future__ import annotations
 

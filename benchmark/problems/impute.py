@@ -25,7 +25,7 @@ __all__ = ["FilledRecordings", "ImputeProblem"]
 
 @dataclass(frozen=True, eq=False)
 class FilledRecordings:
-    """The answer to an `ImputeProblem`.
+    """The solution to an `ImputeProblem`.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class FilledRecordings:
 
     @classmethod
     def from_arrays(cls, arrays: Arrays) -> Self:
-        """Return the answer that `to_arrays` turned into ``arrays``."""
+        """Return the solution that `to_arrays` turned into ``arrays``."""
         means, variances = arrays_by_number("mean", arrays), arrays_by_number("variance", arrays)
         return cls(tuple(map(Prediction, means, variances or (None,) * len(means))))
 
@@ -90,7 +90,7 @@ class ImputeProblem(Problem[FilledRecordings]):
     body: Body | None = None
     scales: NDArray[np.float64] | None = None
 
-    answer_type = FilledRecordings
+    solution_type = FilledRecordings
 
     @classmethod
     def of_one(
@@ -141,34 +141,34 @@ class ImputeProblem(Problem[FilledRecordings]):
             raise InvalidPredictionError(
                 f"{method}: expected a list of {len(wanted)} Prediction, got {predictions!r:.200}"
             )
-        answer = FilledRecordings(tuple(map(_check_prediction, self.given, predictions)))
+        solution = FilledRecordings(tuple(map(_check_prediction, self.given, predictions)))
         if len({prediction.variance is None for prediction in predictions}) > 1:
             raise InvalidPredictionError(
                 f"{method}: expected a variance with every Prediction or with none, got both"
             )
-        return answer
+        return solution
 
-    def outcome(self, answer: FilledRecordings) -> Imputation:
+    def outcome(self, solution: FilledRecordings) -> Imputation:
         """Put the recordings one below the other, in the problem's unit."""
         visible_mean, visible_variance = self._visible_moments()
-        variance, truth = answer.variance, np.concatenate(self.truth)
+        variance, truth = solution.variance, np.concatenate(self.truth)
         known = np.isfinite(truth)
         return Imputation(
-            truth=self.unit.of(np.where(known, truth, answer.mean)),
-            mean=self.unit.of(answer.mean),
+            truth=self.unit.of(np.where(known, truth, solution.mean)),
+            mean=self.unit.of(solution.mean),
             variance=None if variance is None else variance / self.unit.scale**2,
             hidden=known & ~np.concatenate([recording.visible for recording in self.given]),
             visible_mean=visible_mean,
             visible_variance=visible_variance,
             scales=self.scales,
             units=self.unit.names(self.given[0].units),
-            place_joints=self._placement(answer),
+            place_joints=self._placement(solution),
         )
 
-    def _placement(self, answer: FilledRecordings) -> Callable[[], ImputedPoses] | None:
+    def _placement(self, solution: FilledRecordings) -> Callable[[], ImputedPoses] | None:
         if self.body is None:
             return None
-        return partial(imputed_poses, self.body, self.given, self.truth, answer.predictions)
+        return partial(imputed_poses, self.body, self.given, self.truth, solution.predictions)
 
     def _visible_moments(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return moments over all recordings given to fit and impute, each counted once."""

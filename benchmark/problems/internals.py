@@ -1,4 +1,4 @@
-"""Fitted quantities of a model besides its answer, kept for figures."""
+"""Fitted quantities of a model besides its solution, kept for figures."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Places the joints of a truth, an answer, samples and references in space."""
+"""Places the joints of a truth, a solution, samples and references in space."""
 
 from __future__ import annotations
 

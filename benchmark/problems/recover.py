@@ -23,7 +23,7 @@ LAYERS = ("parent", "child")
 
 @dataclass(frozen=True, eq=False)
 class Covariances:
-    """The answer to a `RecoverProblem`.
+    """The solution to a `RecoverProblem`.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class Covariances:
 
     @classmethod
     def from_arrays(cls, arrays: Arrays) -> Self:
-        """Return the answer that `to_arrays` turned into ``arrays``."""
+        """Return the solution that `to_arrays` turned into ``arrays``."""
         return cls(with_prefix("covariance", arrays))
 
 
@@ -60,7 +60,7 @@ class RecoverProblem(Problem[Covariances]):
     process: ToyProcess
     times: Frames
 
-    answer_type = Covariances
+    solution_type = Covariances
 
     def solve(self, model: Layered, random_state: int) -> Covariances:
         """Return the children's covariance and, of a model with two layers, the parent's.
@@ -72,9 +72,11 @@ class RecoverProblem(Problem[Covariances]):
         paired = zip(reversed(LAYERS), reversed(model.layers), strict=False)
         return Covariances({layer: self._covariance(model, own) for layer, own in paired})
 
-    def outcome(self, answer: Covariances) -> Recovery:
+    def outcome(self, solution: Covariances) -> Recovery:
         """Set the covariances beside those of the process."""
-        estimate = {layer: answer.by_layer[layer] for layer in LAYERS if layer in answer.by_layer}
+        estimate = {
+            layer: solution.by_layer[layer] for layer in LAYERS if layer in solution.by_layer
+        }
         return Recovery(truth=self.truth, estimate=estimate, noise=self.process.noise)
 
     @property

@@ -22,7 +22,7 @@ __all__ = ["Samples", "SynthesiseProblem"]
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """The answer to a `SynthesiseProblem`.
+    """The solution to a `SynthesiseProblem`.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ class Samples:
 
     @classmethod
     def from_arrays(cls, arrays: Arrays) -> Self:
-        """Return the answer that `to_arrays` turned into ``arrays``."""
+        """Return the solution that `to_arrays` turned into ``arrays``."""
         return cls(arrays["samples"])
 
 
@@ -69,7 +69,7 @@ class SynthesiseProblem(Problem[Samples]):
     references: tuple[FrameByChannel, ...]
     body: Body | None = None
 
-    answer_type = Samples
+    solution_type = Samples
 
     def solve(self, model: Synthesiser, random_state: int) -> Samples:
         """Return the model's samples."""
@@ -82,12 +82,12 @@ class SynthesiseProblem(Problem[Samples]):
             )
         return Samples(samples)
 
-    def outcome(self, answer: Samples) -> Synthesis:
+    def outcome(self, solution: Samples) -> Synthesis:
         """Set the samples beside the references."""
-        return Synthesis(answer.values, np.stack(self.references), self._placement(answer))
+        return Synthesis(solution.values, np.stack(self.references), self._placement(solution))
 
-    def _placement(self, answer: Samples) -> Callable[[], SampledPoses] | None:
+    def _placement(self, solution: Samples) -> Callable[[], SampledPoses] | None:
         if self.body is None:
             return None
         like = replace(self.train[0], times=self.times, values=self.references[0])
-        return partial(sampled_poses, self.body, like, tuple(answer.values), self.references)
+        return partial(sampled_poses, self.body, like, tuple(solution.values), self.references)

@@ -1,4 +1,4 @@
-"""The illustrations of a run: made from stored answers when the report is."""
+"""The illustrations of a run: made from stored solutions when the report is."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["illustrations"]
 def illustrations(
     records: Sequence[Record], store: RunDirectory, archive: Archive
 ) -> tuple[Picture, ...]:
-    """Return the figures of every task: of the first case that it names and that has answers.
+    """Return the figures of every task: of the first case that it names and that has solutions.
 
     The problem is posed again, which takes its recordings; a case that lacks them, or of which one
     has changed since, is not shown.

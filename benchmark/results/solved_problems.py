@@ -1,4 +1,4 @@
-"""A problem posed again, with its stored answers."""
+"""A problem posed again, with its stored solutions."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ _UNRANKED = (TaskLayout.oracle, TaskLayout.control, TaskLayout.replay)
 def solved_problem(
     task: Task, records: Sequence[Record], store: RunDirectory, archive: Archive
 ) -> Solved[Any, Any] | None:
-    """Return the problem of one case and fold with the stored answers of some entrants.
+    """Return the problem of one case and fold with the stored solutions of some entrants.
 
-    None if no answer is stored, or a recording has changed since.
+    None if no solution is stored, or a recording has changed since.
 
     Parameters
     ----------
@@ -48,13 +48,13 @@ def solved_problem(
         return None
     case = task.case(records[0].address.case)
     address = records[0].address._replace(case=case.problem_name)
-    if not _as_they_were(case, records[0], archive):
+    if not _has_same_recordings(case, records[0], archive):
         return None
     problem = case.problem(Seeds(records[0].seed, address), archive)
     return Solved(
         task.name,
         problem,
-        {label: problem.answer_type.from_arrays(of_label) for label, of_label in arrays.items()},
+        {label: problem.solution_type.from_arrays(of_label) for label, of_label in arrays.items()},
         {label: Internals.from_arrays(of_label) for label, of_label in arrays.items()},
         task.page.published_models,
         ranking=_ranking(task, records),
@@ -73,7 +73,7 @@ def _ranking(task: Task, records: Sequence[Record]) -> tuple[str, ...]:
     return tuple(sorted(competing, key=lambda k: metric.direction.loss(scores[k], metric.target)))
 
 
-def _as_they_were(case: Case, record: Record, archive: Archive) -> bool:
+def _has_same_recordings(case: Case, record: Record, archive: Archive) -> bool:
     """Return whether the recordings of a case are those that the record is of."""
     digests = {uri: archive.digest(uri) for uri in case.recordings}
     kept = {uri: record.provenance.get(f"digest of {uri}", now) for uri, now in digests.items()}

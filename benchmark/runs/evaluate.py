@@ -130,7 +130,7 @@ def _score_fit(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig
 def _score_by_each(
     job: Job, problem: Problem[Any], fit: Fit
 ) -> tuple[dict[str, Score], list[Exception]]:
-    """Score the answer of ``fit`` by every metric of a job that is defined for it.
+    """Score the solution of ``fit`` by every metric of a job that is defined for it.
 
     Returns
     -------
@@ -144,9 +144,9 @@ def _score_by_each(
     MemoryError
         If a metric needs more memory than there is.
     ValueError
-        If no metric is defined for the answer.
+        If no metric is defined for the solution.
     """
-    outcome = problem.outcome(problem.answer_type.from_arrays(fit.arrays))
+    outcome = problem.outcome(problem.solution_type.from_arrays(fit.arrays))
     scores: dict[str, Score] = {}
     errors: list[Exception] = []
     for name in job.metrics:
@@ -158,7 +158,7 @@ def _score_by_each(
             errors.append(error)
     if not scores and not errors:
         raise ValueError(
-            f"none of the metrics {', '.join(job.metrics)} is defined for the answer of "
+            f"none of the metrics {', '.join(job.metrics)} is defined for the solution of "
             f"{job.address.label} to {job.address.task}; choose others with --metrics"
         )
     return scores, errors
@@ -207,7 +207,7 @@ def _score_by(metric: Metric[Any], outcome: object) -> dict[str, Score]:
 def _require_finite(name: str, value: float, overflowed: bool) -> None:
     """Refuse a value that is infinite, or NaN because numbers on the way to it overflowed.
 
-    Any other NaN says that the metric is not defined for this answer.
+    Any other NaN says that the metric is not defined for this solution.
     """
     if math.isinf(value) or (math.isnan(value) and overflowed):
         why = ": numbers overflowed" if overflowed else ""

@@ -62,7 +62,7 @@ def run(
     known = {job.key: posed.check_record(r) for job in jobs if (r := store.load(job.key))}
     finished = {key: record for key, record in known.items() if not record.status.broken}
     todo = [job for job in jobs if job.key not in finished]
-    log.run_started(store.path, len(jobs), len(finished))
+    log.tell_run_start(store.path, len(jobs), len(finished))
     if finished:
         console.print(f"{len(finished)} of {len(jobs)} jobs are in {store.path} already")
     for job in todo:
@@ -95,7 +95,7 @@ def _compute_records(
             spool.add(archive, job.digests)
             already_damaged = len(store.damaged)
             fit = store.load_fit(job.fit_key)
-            log.job_started(job.address)
+            log.tell_job_start(job.address)
             trained = models.load(job.training_key) if fit is None else None
             return Work(job, fit, tuple(store.damaged[already_damaged:]), trained)
 
@@ -120,7 +120,7 @@ def _check_outcome(posed: PosedProblems, outcome: Outcome) -> Outcome:
 
 
 def _log_end(log: EventLog, record: Record, seconds: float) -> None:
-    log.job_ended(record.address, record.status.value, seconds, record.message)
+    log.tell_job_end(record.address, record.status.value, seconds, record.message)
 
 
 def _without_data(job: Job, config: WorkerConfig) -> Record:

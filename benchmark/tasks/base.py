@@ -40,7 +40,7 @@ class Case:
     sources : tuple of str
         Addresses of the recordings that models see of it, such as ``cmu:02_01``.
     references : tuple of str
-        Addresses of the recordings that no model sees, and that answers are compared with.
+        Addresses of the recordings that no model sees, and that solutions are compared with.
     problem_name : str
         Cases that differ only in their references pose one problem: they share its name, and with
         it their seeds and fits. Their ``problem`` binds the references as a keyword argument

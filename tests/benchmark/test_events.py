@@ -26,8 +26,8 @@ def _strict(line):
 def test_whatever_happens_is_one_line_of_printable_json(address, message):
     lines = []
     log = EventLog(lines.append)
-    log.job_started(address)
-    log.job_ended(address, "failed", 1.23456, message)
+    log.tell_job_start(address)
+    log.tell_job_end(address, "failed", 1.23456, message)
     started, ended = map(_strict, lines)
     assert {"event": "job-started", **address._asdict()}.items() <= started.items()
     assert (ended["message"], ended["seconds"], ended["status"]) == (message, 1.235, "failed")
@@ -37,12 +37,12 @@ def test_whatever_happens_is_one_line_of_printable_json(address, message):
 def test_a_line_is_in_the_file_as_soon_as_it_is_told(tmp_path):
     path = tmp_path / "log.jsonl"
     with event_log(path) as log:
-        log.run_started(tmp_path, 4, 1)
+        log.tell_run_start(tmp_path, 4, 1)
         assert _strict(path.read_text())["in_store"] == 1
-        log.job_ended(HERE, "ok", 0.5, "")
+        log.tell_job_end(HERE, "ok", 0.5, "")
         assert len(path.read_text().splitlines()) == 2
-        log.job_ended(HERE, "failed", 0.5, "no")
-        log.run_ended(ExitCode.JOBS_FAILED)
+        log.tell_job_end(HERE, "failed", 0.5, "no")
+        log.tell_run_end(ExitCode.JOBS_FAILED)
     last = _strict(path.read_text().splitlines()[-1])
     assert (last["counts"], last["exit_code"]) == ({"ok": 1, "failed": 1}, 3)
 
@@ -50,18 +50,18 @@ def test_a_line_is_in_the_file_as_soon_as_it_is_told(tmp_path):
 def test_a_log_is_added_to(tmp_path):
     for _ in range(2):
         with event_log(tmp_path / "log.jsonl") as log:
-            log.run_ended(ExitCode.OK)
+            log.tell_run_end(ExitCode.OK)
     assert len((tmp_path / "log.jsonl").read_text().splitlines()) == 2
 
 
 def test_without_a_file_nothing_is_written(tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
     with event_log(None) as log:
-        log.job_started(HERE)
+        log.tell_job_start(HERE)
     assert not [*tmp_path.iterdir()]
     assert capfd.readouterr() == ("", "")
 
 
 def test_what_json_does_not_have_is_refused():
     with pytest.raises(ValueError, match="JSON"):
-        EventLog().job_ended(HERE, "ok", math.nan, "")
+        EventLog().tell_job_end(HERE, "ok", math.nan, "")

@@ -35,8 +35,8 @@ def run_log(path: Path | None) -> Iterator[EventLog]:
         try:
             yield log
         except typer.Exit as ended:
-            log.run_ended(ExitCode(ended.exit_code))
+            log.tell_run_end(ExitCode(ended.exit_code))
             raise
         except BaseException as error:
-            log.run_ended(cli.exit_code(error))
+            log.tell_run_end(cli.exit_code(error))
             raise

@@ -49,7 +49,7 @@ def draw_filled_motion(
     if body is None or not np.isfinite(truth).all():
         return ()
     entrants = choose_entrants(solved, n_most)
-    means = [solved.answers[label].predictions[0].mean for label in entrants[0]]
+    means = [solved.solutions[label].predictions[0].mean for label in entrants[0]]
     filled = [np.where(shown.visible, truth, mean[window.part]) for mean in means]
     true, *made = place_joints(body, shown, [truth, *filled])
     pairs = [("truth", true, positions) for positions in made]

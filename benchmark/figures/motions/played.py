@@ -41,8 +41,8 @@ def choose_entrants(solved: Solved[Any, Any], n_most: int) -> Chosen:
     phrase : str
         Which they are, for a caption.
     """
-    ranked = [label for label in solved.ranking if label in solved.answers]
-    ranked += [label for label in solved.answers if label not in ranked]
+    ranked = [label for label in solved.ranking if label in solved.solutions]
+    ranked += [label for label in solved.solutions if label not in ranked]
     best, others = ranked[:n_most], ranked[n_most:]
     first = [label for label in ranked if label in solved.interpolations][:1]
     labels = (*best, *(label for label in others if label in first))

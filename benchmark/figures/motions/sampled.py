@@ -41,7 +41,7 @@ def draw_sampled_motion(
         return ()
     entrants = choose_entrants(solved, n_most)
     window = ShownWindow(problem.times, np.zeros(len(problem.times), dtype=bool))
-    samples = [solved.answers[label].values[0] for label in entrants[0]]
+    samples = [solved.solutions[label].values[0] for label in entrants[0]]
     values = [motion[window.part] for motion in (*problem.references, *samples)]
     like = replace(problem.train[0], times=problem.times[window.part], values=values[0])
     motions = [on_the_spot(motion) for motion in place_joints(body, like, values)]

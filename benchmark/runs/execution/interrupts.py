@@ -28,7 +28,7 @@ def interrupts_later() -> Iterator[None]:
     before: dict[int, Callable[[int, FrameType | None], Any]] = {}
     held = True
 
-    def later(number: int, frame: FrameType | None) -> None:
+    def delay(number: int, frame: FrameType | None) -> None:
         if held:
             caught.append(number)
         else:  # another signal struck before this handler was put back
@@ -38,7 +38,7 @@ def interrupts_later() -> Iterator[None]:
         if threading.current_thread() is threading.main_thread():
             before |= {n: old for n in _ENDING if callable(old := signal.getsignal(n))}
             for number in before:
-                signal.signal(number, later)
+                signal.signal(number, delay)
         yield
     finally:
         held = False

@@ -17,7 +17,7 @@ class Fit:
     Parameters
     ----------
     arrays : mapping of str to ndarray
-        The answer and the model's internals, as they turn themselves into arrays.
+        The solution and the model's internals, as they turn themselves into arrays.
     fit_seconds, predict_seconds, peak_memory_mb : float
     iterations, converged : int or None, bool or None
         Of the optimisation, where the model has one.

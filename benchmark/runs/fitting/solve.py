@@ -87,7 +87,7 @@ def train(
 
 
 def solve(problem: Problem[Any], fitted: Fitted, random_state: int) -> Fit:
-    """Return a fitted model's answer to ``problem``, and what it cost with the fit.
+    """Return a fitted model's solution to ``problem``, and what it cost with the fit.
 
     Parameters
     ----------
@@ -100,14 +100,14 @@ def solve(problem: Problem[Any], fitted: Fitted, random_state: int) -> Fit:
     model = fitted.model
     with _warnings() as caught:
         started = time.perf_counter()
-        answer = problem.solve(model, random_state)
+        solution = problem.solve(model, random_state)
         seconds = time.perf_counter() - started
     _, costs, internals = fitted.with_internals(problem)
     iterations, converged = (
         getattr(model, f"{name}_", None) for name in ("n_iterations", "converged")
     )
     return Fit(
-        {**answer.to_arrays(), **(internals or {})},
+        {**solution.to_arrays(), **(internals or {})},
         fit_seconds=costs.seconds,
         predict_seconds=seconds,
         peak_memory_mb=max(costs.peak_memory_mb, _peak_memory_mb()),

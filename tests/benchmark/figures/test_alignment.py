@@ -22,13 +22,13 @@ def problem():
 
 def test_each_model_that_aligns_has_a_panel_beside_the_recordings(problem):
     path = np.array([2, 3, 0, 2, 3, 1])
-    answers = {
+    solutions = {
         "groups only": Clusters(LABELS),
         "aligner": Clusters(
             LABELS, {"cycle_length": np.array(4), **with_numbers("path", [path] * 3)}
         ),
     }
-    (illustration,) = draw_alignments(Solved("style-clustering", problem, answers))
+    (illustration,) = draw_alignments(Solved("style-clustering", problem, solutions))
     before, after = illustration.panels
     assert illustration.groups == ("walk", "run")
     assert after.title == "aligned by aligner"

@@ -5,11 +5,11 @@ from mocapbench.benchmark import Covariances, Solved, draw_covariances
 
 def test_covariances_are_shown_beside_the_true_ones_layer_by_layer(posed):
     problem = posed("covariance-recovery", "correlated outputs")
-    answers = {
+    solutions = {
         "mohgp": Covariances({layer: 2.0 * truth for layer, truth in problem.truth.items()}),
         "moa": Covariances({"child": problem.truth["child"]}),
     }
-    solved = Solved("covariance-recovery", problem, answers)
+    solved = Solved("covariance-recovery", problem, solutions)
     child, parent = draw_covariances(solved)
     assert [each.title for each in child.maps] == ["truth", "mohgp", "moa"]
     assert [each.title for each in parent.maps] == ["truth", "mohgp"]

@@ -19,11 +19,11 @@ def problem():
 def _solved(problem, errors):
     """Return the problem, solved with a constant error at hidden entries, by label."""
     shown, truth = problem.given[0].visible, problem.truth[0]
-    answers = {
+    solutions = {
         label: FilledRecordings((Prediction(np.where(shown, truth, truth + error)),))
         for label, error in errors.items()
     }
-    return Solved("upper-body-missing", problem, answers, papers={"nn": "NN", "absent": "HLM"})
+    return Solved("upper-body-missing", problem, solutions, papers={"nn": "NN", "absent": "HLM"})
 
 
 def test_the_papers_models_and_the_best_other_are_shown_where_entries_are_hidden(problem):

@@ -19,13 +19,13 @@ WALK = Recording("walk", np.arange(9.0), RNG.normal(size=(9, 2)), ("a", "b"), ("
 def _solved(mask):
     """Return the walk with ``mask``, filled by seven entrants with errors of different sizes."""
     problem = ImputeProblem.of_one(WALK, mask)
-    answers = {
+    solutions = {
         f"off by {size}": FilledRecordings(
             (Prediction(WALK.values + size * RNG.uniform(0.9, 1.1, size=(9, 2))),)
         )
         for size in (4, 7, 1, 5, 2, 6, 3)
     }
-    return Solved("missing-frames", problem, answers)
+    return Solved("missing-frames", problem, solutions)
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +37,7 @@ def test_the_error_along_the_gap_is_that_of_hidden_frames(solved):
     (illustration,) = draw_gap_error(solved)
     hidden = np.flatnonzero(~solved.problem.given[0].visible[:, 0])
     for curve in illustration.panels[0].curves:
-        error = solved.answers[curve.group].predictions[0].mean - solved.problem.truth[0]
+        error = solved.solutions[curve.group].predictions[0].mean - solved.problem.truth[0]
         np.testing.assert_array_equal(curve.x, hidden + 1)
         np.testing.assert_allclose(curve.y, np.linalg.norm(error[hidden], axis=1))
 

@@ -6,7 +6,7 @@ from mocapbench.datasets import Recording
 
 
 def solved(gaps, offsets, n_frames=200):
-    """Return answers that are off by a constant each; gaps are (start, stop, column)."""
+    """Return solutions that are off by a constant each; gaps are (start, stop, column)."""
     times, channels = np.arange(n_frames) / 50.0, ("a", "b", "c", "d")
     values = np.arange(n_frames * 4, dtype=float).reshape(n_frames, 4)
     values[190, 0] = np.nan  # the recording's own gap
@@ -15,11 +15,11 @@ def solved(gaps, offsets, n_frames=200):
     for start, stop, column in gaps:
         hidden[start:stop, column] = True
     problem = ImputeProblem.of_one(recording, hidden)
-    answers = {
+    solutions = {
         label: FilledRecordings((Prediction(np.nan_to_num(values) + offset),))
         for label, offset in offsets.items()
     }
-    return Solved("task", problem, answers)
+    return Solved("task", problem, solutions)
 
 
 def test_the_channels_that_lack_most_are_shown_around_their_longest_gap():

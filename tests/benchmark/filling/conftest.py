@@ -49,8 +49,8 @@ def filled(waves, hidden):
         target = hidden((50, 60, [0, 1]))
         request = FillRequest(waves().hide(target), target, left_open)
         prediction = PredictedEntries(waves().values[target], np.ones(20))
-        source = InputFile(Path("waves.csv"), CSVFormat(), request, ())
-        return FilledFile(source, "one", prediction, n_windows, choice, failed)
+        input_file = InputFile(Path("waves.csv"), CSVFormat(), request, ())
+        return FilledFile(input_file, "one", prediction, n_windows, choice, failed)
 
     return make
 

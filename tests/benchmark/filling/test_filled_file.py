@@ -35,13 +35,13 @@ class Slow:
         return future
 
 
-def source(recording, mask):
+def input_file(recording, mask):
     request = select(recording.hide(mask), NamedEntries())
     return InputFile(Path("waves.csv"), CSVFormat(), request, ())
 
 
 def test_without_a_hold_out_in_time_an_interpolation_fills_the_file(waves, hidden):
-    given = source(waves(), hidden((50, 60, [0, 1])))
+    given = input_file(waves(), hidden((50, 60, [0, 1])))
     told = []
     filled = fill(given, BEST, Slow(), 5.0, lambda *counts: told.append(counts))
     assert (filled.model, filled.uncompared, filled.choice) == ("linear", True, None)
@@ -57,4 +57,4 @@ def test_without_a_hold_out_in_time_an_interpolation_fills_the_file(waves, hidde
 def test_without_room_for_a_hold_out_a_model_is_to_be_named(waves, hidden):
     mask = hidden((1, 199, [0, 1, 2, 3]))
     with pytest.raises(UsageError, match="name a model with --model"):
-        fill(source(waves(), mask), BEST, Slow(), 5.0, lambda *_: None)
+        fill(input_file(waves(), mask), BEST, Slow(), 5.0, lambda *_: None)

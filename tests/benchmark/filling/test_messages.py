@@ -22,16 +22,16 @@ def test_channels_of_which_nothing_is_visible_are_named(
     filled, choice_of, *, chosen, n_train, advised
 ):
     one = filled(choice_of({"one": [1, 2, 1]}) if chosen else None)
-    request = one.source.request
+    request = one.input_file.request
     assert not any("nothing is visible" in remark for remark in list_remarks(one))
     target = request.target.copy()
     target[:, 2] = True
     request = replace(request, given=request.given.hide(target), target=target)
-    source = replace(one.source, request=request, train=(request.given,) * n_train)
+    input_file = replace(one.input_file, request=request, train=(request.given,) * n_train)
     prediction = PredictedEntries(np.zeros(target.sum()), None)
     (said,) = (
         r
-        for r in list_remarks(replace(one, source=source, prediction=prediction))
+        for r in list_remarks(replace(one, input_file=input_file, prediction=prediction))
         if "nothing is" in r
     )
     assert said.startswith(f"Of {request.given.channels[2]}, nothing is visible in the file")
@@ -44,14 +44,14 @@ def test_the_headline_counts(filled):
 
 def test_one_of_anything_is_singular(filled):
     one = filled(left_open=(Gap(100, 150, (0,)),))
-    target = np.zeros_like(one.source.request.target)
+    target = np.zeros_like(one.input_file.request.target)
     target[50, 0] = True
-    given = one.source.request.given
+    given = one.input_file.request.given
     given = replace(given, values=np.where(given.visible, given.values, 0.0))
     hides_two = given.hide(target | np.roll(target, 1))
-    request = replace(one.source.request, given=hides_two, target=target)
-    source = replace(one.source, request=request)
-    one = replace(one, source=source, prediction=PredictedEntries(np.zeros(1), np.ones(1)))
+    request = replace(one.input_file.request, given=hides_two, target=target)
+    input_file = replace(one.input_file, request=request)
+    one = replace(one, input_file=input_file, prediction=PredictedEntries(np.zeros(1), np.ones(1)))
     said = [*list_remarks(one)]
     assert describe_fill(one) == "one filled 1 entry in 1 gap."
     assert "1 longer gap was left open." in said
@@ -99,8 +99,8 @@ def test_models_that_err_much_more_are_not_named_beside_the_choice(filled, choic
 
 def test_values_of_the_file_that_are_repositiond_are_counted(filled):
     one = filled()
-    request = replace(one.source.request, replaced=3)
-    said = " ".join(list_remarks(replace(one, source=replace(one.source, request=request))))
+    request = replace(one.input_file.request, replaced=3)
+    said = " ".join(list_remarks(replace(one, input_file=replace(one.input_file, request=request))))
     assert "3 filled entries have a value in the file, which the filled one replaces." in said
 
 
@@ -192,8 +192,8 @@ def test_a_channel_of_which_little_is_visible_is_named(filled, waves, visible, t
     request = FillRequest(waves().hide(target), target, ())
     prediction = PredictedEntries(waves().values[target], np.ones(int(target.sum())))
     others = (waves(name="other"),) if train else ()
-    source = replace(filled().source, request=request, train=others)
-    words = " ".join(list_remarks(replace(filled(), source=source, prediction=prediction)))
+    input_file = replace(filled().input_file, request=request, train=others)
+    words = " ".join(list_remarks(replace(filled(), input_file=input_file, prediction=prediction)))
     assert (f"only {visible} frames are visible" in words) == said
 
 
@@ -203,7 +203,7 @@ def test_unlabelled_markers_that_stay_as_they_are_are_counted_once(filled, waves
     target = hidden((50, 60, [0]))
     request = FillRequest(given.hide(target), target, (), given.channels[1:])
     one = filled()
-    one = replace(one, source=replace(one.source, request=request))
+    one = replace(one, input_file=replace(one.input_file, request=request))
     (said,) = list_remarks(
         replace(one, prediction=PredictedEntries(waves().values[target], np.ones(10)))
     )
@@ -227,7 +227,9 @@ def test_gaps_with_frames_on_one_side_only_are_counted(filled, waves, hidden, ga
     )
     found = [
         remark
-        for remark in list_remarks(replace(one, source=replace(one.source, request=request)))
+        for remark in list_remarks(
+            replace(one, input_file=replace(one.input_file, request=request))
+        )
         if "on one side only" in remark
     ]
     assert [remark.startswith(said) for remark in found] == [True] * bool(said)
@@ -244,19 +246,19 @@ def test_a_jump_at_an_edge_is_said(filled):
 
 def test_times_that_are_probably_not_in_seconds_are_said(filled):
     given = filled()
-    request = given.source.request
+    request = given.input_file.request
     for interval, said in ((0.49, False), (0.51, True)):
         times = interval * np.arange(len(request.given.times))
         late = replace(request, given=replace(request.given, times=times))
-        found = replace(given, source=replace(given.source, request=late))
+        found = replace(given, input_file=replace(given.input_file, request=late))
         assert ("in milliseconds" in " ".join(list_remarks(found))) == said
 
 
 def test_one_frame_has_no_interval_to_remark_on():
     given = Recording("one", [0.0], [[1.0, np.nan]], ("a", "b"), ("deg", "deg"))
     target = np.array([[False, True]])
-    source = InputFile(Path("one.csv"), CSVFormat(), FillRequest(given, target, ()), ())
-    filled = FilledFile(source, "one", PredictedEntries(np.zeros(1), np.ones(1)), 0, None, ())
+    input_file = InputFile(Path("one.csv"), CSVFormat(), FillRequest(given, target, ()), ())
+    filled = FilledFile(input_file, "one", PredictedEntries(np.zeros(1), np.ones(1)), 0, None, ())
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         (said,) = list_remarks(filled)
@@ -283,10 +285,10 @@ def test_times_that_seem_to_be_milliseconds_are_doubted_wherever_they_begin(
     filled, apart, slow, start
 ):
     one = filled()
-    request = one.source.request
+    request = one.input_file.request
     times = start + apart * np.arange(len(request.given.times))
     request = replace(request, given=replace(request.given, times=times))
-    one = replace(one, source=replace(one.source, request=request))
+    one = replace(one, input_file=replace(one.input_file, request=request))
     said = [
         remark for remark in list_remarks(one) if remark.startswith(f"Frames are {apart} s apart")
     ]

@@ -18,11 +18,11 @@ from mocapbench.datasets import AcclaimFormat, CSVFormat, Recording
 
 def page_for(whole, target, filled):
     """Return the page of a file of which the target was filled with these values."""
-    source = InputFile(
+    input_file = InputFile(
         Path("waves.csv"), CSVFormat(), FillRequest(whole.hide(target), target, ()), ()
     )
     prediction = PredictedEntries(filled[target], np.ones(int(target.sum())))
-    return compose_page(FilledFile(source, "one", prediction, 0, None, ()), "mocapbench fill")
+    return compose_page(FilledFile(input_file, "one", prediction, 0, None, ()), "mocapbench fill")
 
 
 @pytest.mark.parametrize("length", [1, 2, 4, 5, 12, 30])
@@ -32,10 +32,10 @@ def test_figures_show_filled_frames_and_frames_of_the_file_beside_them(tmp_path,
     format_files.write_acclaim(path, walk)
     target = np.zeros(walk.values.shape, dtype=bool)
     target[start : start + length, 10] = True
-    source = InputFile(path, AcclaimFormat(), FillRequest(walk.hide(target), target, ()), ())
+    input_file = InputFile(path, AcclaimFormat(), FillRequest(walk.hide(target), target, ()), ())
     prediction = PredictedEntries(walk.values[target], np.ones(length))
     panel = compose_page(
-        FilledFile(source, "one", prediction, 0, None, ()), "mocapbench fill"
+        FilledFile(input_file, "one", prediction, 0, None, ()), "mocapbench fill"
     ).motion
     groups = [curve.group for curve in panel.curves]
     assert {*groups} == {"filled", "in the file"}

@@ -37,12 +37,12 @@ def problem():
     return ClusterProblem(train, STYLES, motion.skeleton)
 
 
-def _answer(problem, model):
+def _solve(problem, model):
     return problem.solve(problem.fit(model), 0)
 
 
 def test_a_transition_leads_smoothly_from_one_style_to_the_other(problem):
-    blend = _answer(problem, Poses()).blend
+    blend = _solve(problem, Poses()).blend
     first, between, second = blend["blend"]
     assert blend["blended"].tolist() == [0, 2]
     assert between.shape == (N_FRAMES, 62)
@@ -54,17 +54,17 @@ def test_a_transition_leads_smoothly_from_one_style_to_the_other(problem):
 
 def test_the_styles_that_differ_most_are_taken(problem):
     for labels, styles in (((1, 0, 2), [0, 2]), ((1, 1, 2), [1, 2])):
-        answer = _answer(problem, Poses(labels=labels))
-        assert answer.blend["blended"].tolist() == styles
+        solution = _solve(problem, Poses(labels=labels))
+        assert solution.blend["blended"].tolist() == styles
 
 
 def test_one_cluster_leaves_nothing_to_blend(problem):
-    answer = _answer(problem, Poses(labels=(1, 1, 1)))
-    assert answer.blend is None
-    assert set(answer.to_arrays()) == {"labels"}
+    solution = _solve(problem, Poses(labels=(1, 1, 1)))
+    assert solution.blend is None
+    assert set(solution.to_arrays()) == {"labels"}
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, np.ones((2, 1, 1))])
 def test_a_motion_that_is_none_is_refused(problem, value):
     with pytest.raises(InvalidPredictionError, match="blend: expected finite frames of shape"):
-        _answer(problem, Poses(value=value))
+        _solve(problem, Poses(value=value))

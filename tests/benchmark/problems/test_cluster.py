@@ -48,23 +48,23 @@ def problem():
     return ClusterProblem(train, ("walk", "walk", "run"), NOBODY)
 
 
-def _answer(problem, model):
+def _solve(problem, model):
     return problem.solve(problem.fit(model), 0)
 
 
 def test_clusters_are_set_beside_the_classes(problem):
-    answer = _answer(problem, Fixed())
-    assert set(answer.to_arrays()) == {"labels"}
-    assert answer.alignment is answer.blend is None
-    assert purity(problem.outcome(answer)).value == 1.0
-    wrong = problem.outcome(_answer(problem, Fixed((0, 1, 1))))
+    solution = _solve(problem, Fixed())
+    assert set(solution.to_arrays()) == {"labels"}
+    assert solution.alignment is solution.blend is None
+    assert purity(problem.outcome(solution)).value == 1.0
+    wrong = problem.outcome(_solve(problem, Fixed((0, 1, 1))))
     assert purity(wrong).value == pytest.approx(2 / 3)
 
 
 def test_a_model_that_aligns_leaves_its_paths(problem):
-    answer = _answer(problem, FixedAligner())
-    assert answer.alignment["cycle_length"] == 4
-    assert [path.tolist() for path in arrays_by_number("path", answer.alignment)] == [
+    solution = _solve(problem, FixedAligner())
+    assert solution.alignment["cycle_length"] == 4
+    assert [path.tolist() for path in arrays_by_number("path", solution.alignment)] == [
         [0, 1, 2],
         [1, 2, 3, 0, 1],
         [3, 0, 2, 3],
@@ -74,12 +74,12 @@ def test_a_model_that_aligns_leaves_its_paths(problem):
 @pytest.mark.parametrize("labels", [(0, 0), (0.0, 0.5, 1.0), ("a", "a", "b"), ((0, 0, 1),)])
 def test_labels_that_are_none_are_refused(problem, labels):
     with pytest.raises(InvalidPredictionError, match="expected 3 integers"):
-        _answer(problem, Fixed(labels))
+        _solve(problem, Fixed(labels))
 
 
 def test_paths_of_a_model_that_aligns_are_checked(problem):
     with pytest.raises(InvalidPredictionError, match="a state for each frame"):
-        _answer(problem, FixedAligner(paths=((0, 1, 2),)))
+        _solve(problem, FixedAligner(paths=((0, 1, 2),)))
 
 
 LABELS = np.array([0, 0, 2])

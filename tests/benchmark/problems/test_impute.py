@@ -87,10 +87,10 @@ FILLED = Prediction(TRUTH)
 UNSURE = Prediction(TRUTH, np.ones_like(TRUTH))
 
 
-@pytest.mark.parametrize("answer", [[], [FILLED, FILLED], [TRUTH], (FILLED,), None])
-def test_an_answer_is_a_list_of_one_prediction_per_recording(problem, answer):
+@pytest.mark.parametrize("solution", [[], [FILLED, FILLED], [TRUTH], (FILLED,), None])
+def test_an_answer_is_a_list_of_one_prediction_per_recording(problem, solution):
     with pytest.raises(InvalidPredictionError, match="impute: expected a list of 1 Prediction"):
-        problem.solve(Answers(answer), 0)
+        problem.solve(Answers(solution), 0)
 
 
 def test_all_predictions_have_a_variance_or_none_has(problem):

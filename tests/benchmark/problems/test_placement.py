@@ -98,8 +98,8 @@ def test_scores_in_another_unit_leave_positions_in_centimetres():
 
 def test_several_recordings_are_placed_each_by_itself(gap):
     both = ImputeProblem(gap.train, gap.given * 2, gap.truth * 2, gap.unit, gap.body)
-    answers = FilledRecordings((Prediction(WALK.values), Prediction(WALK.values + 1.0)))
-    poses = both.outcome(answers).poses
+    solutions = FilledRecordings((Prediction(WALK.values), Prediction(WALK.values + 1.0)))
+    poses = both.outcome(solutions).poses
     assert poses.starts == (0, 50)
     np.testing.assert_array_equal(poses.truth[:50], poses.truth[50:])
     np.testing.assert_array_equal(poses.mean[:50], poses.truth[:50])

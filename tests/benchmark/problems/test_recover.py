@@ -44,16 +44,16 @@ def test_the_data_are_as_the_paper_says(problem):
 
 
 def test_the_truth_has_no_error(problem):
-    answer = problem.solve(_Fixed(problem.truth), 0)
-    scores = _scores(problem.outcome(answer))
+    solution = problem.solve(_Fixed(problem.truth), 0)
+    scores = _scores(problem.outcome(solution))
     assert set(scores) == set(METRIC_NAMES)
     assert max(map(abs, scores.values())) < 1e-9
 
 
 def test_the_one_kernel_of_a_model_without_a_hierarchy_stands_for_the_childrens(problem):
-    answer = problem.solve(_Flat({"only": problem.truth["child"]}), 0)
-    assert set(answer.by_layer) == {"child"}
-    assert set(_scores(problem.outcome(answer))) == {"frobenius_child", "logdet_child"}
+    solution = problem.solve(_Flat({"only": problem.truth["child"]}), 0)
+    assert set(solution.by_layer) == {"child"}
+    assert set(_scores(problem.outcome(solution))) == {"frobenius_child", "logdet_child"}
 
 
 @pytest.mark.parametrize("wrong", [np.eye(3), np.full((150, 150), np.nan)])
@@ -65,5 +65,5 @@ def test_a_covariance_of_another_shape_or_with_nan_is_refused(problem, wrong):
 @pytest.mark.parametrize("layers", [(), ("child",), ("parent", "child"), ("only", "a-b")])
 def test_an_answer_survives_the_store(survives, layers):
     matrices = np.random.default_rng(0).normal(size=(len(layers), 6, 6))
-    answer = Covariances(dict(zip(layers, matrices, strict=True)))
-    assert survives(answer, {"coregionalisation-child": np.eye(3)})
+    solution = Covariances(dict(zip(layers, matrices, strict=True)))
+    assert survives(solution, {"coregionalisation-child": np.eye(3)})

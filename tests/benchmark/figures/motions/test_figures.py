@@ -18,7 +18,7 @@ from mocapbench.benchmark.figures.motions.scaled_values import scaled_angles
 
 
 def filled(problem, offsets):
-    """Return answers that are off by a constant each, also where entries are visible."""
+    """Return solutions that are off by a constant each, also where entries are visible."""
     truth = problem.truth[0]
     return {label: FilledRecordings((Prediction(truth + off),)) for label, off in offsets.items()}
 
@@ -26,8 +26,8 @@ def filled(problem, offsets):
 @pytest.fixture
 def gap(posed):
     problem = posed("missing-frames", "synthetic 1")
-    answers = filled(problem, {"right": 0.0, "wrong": 5.0})
-    return Solved("missing-frames", problem, answers, ranking=("right", "wrong"), metric="RMS")
+    solutions = filled(problem, {"right": 0.0, "wrong": 5.0})
+    return Solved("missing-frames", problem, solutions, ranking=("right", "wrong"), metric="RMS")
 
 
 def test_a_filled_gap_is_beside_the_truth(gap):
@@ -57,8 +57,8 @@ def test_there_is_no_player_without_a_body_or_without_a_truth(gap):
 
 def test_scaled_values_are_placed_on_the_spot(posed):
     problem = posed("subject-35-missing", "synthetic right leg")
-    answers = filled(problem, {"right": 0.0, "wrong": 0.5})
-    solved = Solved("subject-35-missing", problem, answers, archive=archive(None))
+    solutions = filled(problem, {"right": 0.0, "wrong": 0.5})
+    solved = Solved("subject-35-missing", problem, solutions, archive=archive(None))
     (picture,) = draw_filled_motion(solved, find_body=scaled_angles)
     truth = picture.truths["truth"]
     heights = truth[..., 1].max(axis=1) - truth[..., 1].min(axis=1)
@@ -72,18 +72,18 @@ def test_scaled_values_are_placed_on_the_spot(posed):
 
 def test_a_sample_is_beside_the_reference_that_it_is_nearest_to(posed):
     problem = posed("walking-synthesis", "synthetic")
-    answers = {
+    solutions = {
         f"like-{k + 1}": Samples(np.stack([reference, problem.references[0]]))
         for k, reference in enumerate(problem.references)
     }
-    (picture,) = draw_sampled_motion(Solved("walking-synthesis", problem, answers))
+    (picture,) = draw_sampled_motion(Solved("walking-synthesis", problem, solutions))
     assert [motion.against for motion in picture.motions] == [
         f"reference {k + 1}" for k in range(len(problem.references))
     ]
     for motion in picture.motions:
         np.testing.assert_allclose(motion.positions, picture.truths[motion.against], atol=1e-9)
     assert not picture.hidden.any()
-    bodiless = Solved("walking-synthesis", replace(problem, body=None), answers)
+    bodiless = Solved("walking-synthesis", replace(problem, body=None), solutions)
     assert draw_sampled_motion(bodiless) == ()
 
 
@@ -106,7 +106,7 @@ def test_a_long_recording_is_cut_before_it_is_placed(gap):
             return problem.body.positions(recording)
 
     longer = replace(problem, given=(recording.hide(hidden),), truth=(truth,), body=Counting())
-    solved = replace(gap, problem=longer, answers=filled(longer, {"right": 0.0}))
+    solved = replace(gap, problem=longer, solutions=filled(longer, {"right": 0.0}))
     (picture,) = draw_filled_motion(solved)
     assert asked == [2 * 300]  # ten seconds of the truth and of one entrant
     assert "10.0 s at 30 Hz, of 60.0 s" in picture.caption

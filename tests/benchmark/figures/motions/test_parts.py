@@ -33,8 +33,8 @@ def test_the_window_is_short_even_and_has_the_gap(rate, n, start, length):
     )
 
 
-def solved(ranking, answers, interpolations=()):
-    return Solved("task", None, dict.fromkeys(answers), {}, (), ranking, "MSE", interpolations)
+def solved(ranking, solutions, interpolations=()):
+    return Solved("task", None, dict.fromkeys(solutions), {}, (), ranking, "MSE", interpolations)
 
 
 def test_the_best_are_shown_and_the_best_interpolation():

@@ -72,17 +72,17 @@ def test_every_task_with_figures_is_tried():
 def test_what_a_fit_stores_comes_back_whole(stored):
     _, problem, fits = stored
     for label, arrays in fits.items():
-        parts = (kind.from_arrays(arrays) for kind in (problem.answer_type, Internals))
+        parts = (kind.from_arrays(arrays) for kind in (problem.solution_type, Internals))
         again = {name: a for part in parts for name, a in part.to_arrays().items()}
         assert joblib.hash(again) == joblib.hash(dict(arrays)), label
 
 
 def test_every_figure_of_a_page_draws(stored):
     task, problem, fits = stored
-    answers = {label: problem.answer_type.from_arrays(a) for label, a in fits.items()}
+    solutions = {label: problem.solution_type.from_arrays(a) for label, a in fits.items()}
     internals = {label: Internals.from_arrays(a) for label, a in fits.items()}
     published = task.page.published_models
-    solved = Solved(task.name, problem, answers, internals, published, archive=archive_at(None))
+    solved = Solved(task.name, problem, solutions, internals, published, archive=archive_at(None))
     pictures = [list(figure(solved)) for figure in task.page.figures]
     assert all(pictures)
     shown = [picture for of_figure in pictures for picture in of_figure]
@@ -90,6 +90,6 @@ def test_every_figure_of_a_page_draws(stored):
     assert len({picture.title for picture in shown}) == len(shown)
     for picture in shown:
         if isinstance(picture, Motions):
-            assert player(picture)["labels"] == tuple(answers)
+            assert player(picture)["labels"] == tuple(solutions)
         else:
             assert "<svg" in draw(picture, {}).svg
