@@ -54,7 +54,7 @@ from .runs.execution.fork_server import fork_server
 from .runs.execution.this_machine import ThisMachine
 from .runs.job import Job, WorkerConfig
 from .runs.machine import memory_share, n_cores
-from .runs.plan import plan, required_sources
+from .runs.plan import plan, required_recordings
 from .runs.plan_document import plan_document, planned_task_files
 from .runs.provenance import provenance
 from .runs.record import Record, Status
@@ -168,7 +168,7 @@ __all__ = [
     "recording_names",
     "require_backend",
     "require_recordings",
-    "required_sources",
+    "required_recordings",
     "run",
     "run_state",
     "score_table",

@@ -112,7 +112,7 @@ def run(
     )
     archive = open_archive(data_dir, task_files)
     if not (offline or dry_run):
-        fetch_missing(archive, bench.required_sources(request, archive), console)
+        fetch_missing(archive, bench.required_recordings(request, archive), console)
     planned = _plan_jobs(request, archive)
     if explain:
         console.print(bench.explanation_table(bench.explain(planned, out)))

@@ -12,7 +12,7 @@ from typing import Any
 from mocapbench.basics.whole_files import write_bytes
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.merging.reconcile import (
-    read_source,
+    read_merged_run,
     unite_fits,
     unite_plans,
     unite_records,
@@ -81,15 +81,15 @@ def _unite_runs(paths: Sequence[Path], locked: Path | None = None) -> Merged:
     if len(paths) < 2:
         raise UsageError(f"expected two run directories or more, got {paths[0]}; name another")
     distinct = {path.resolve(): path for path in paths}
-    sources = [read_source(path) for path in distinct.values()]
-    records = unite_records(sources)
-    entries = {key: entry for source in reversed(sources) for key, entry in source.keys.items()}
+    merged = [read_merged_run(path) for path in distinct.values()]
+    records = unite_records(merged)
+    entries = {key: entry for run in reversed(merged) for key, entry in run.keys.items()}
     return Merged(
         records={key: path for key, (_, path) in records.items()},
-        fits=unite_fits(sources),
+        fits=unite_fits(merged),
         keys=entries,
-        plan=unite_plans(sources, records, entries),
-        damaged=tuple(message for source in sources for message in source.store.damaged),
+        plan=unite_plans(merged, records, entries),
+        damaged=tuple(message for run in merged for message in run.store.damaged),
         busy=tuple(
             path for path in distinct.values() if path != locked and RunDirectory(path).is_locked
         ),
@@ -116,8 +116,8 @@ def _write(merged: Merged, store: RunDirectory) -> None:
     store.save_plan(merged.plan)
 
 
-def _copy(source: Path, target: Path) -> None:
-    content = source.read_bytes()
+def _copy(file: Path, target: Path) -> None:
+    content = file.read_bytes()
     if not target.is_file() or target.read_bytes() != content:
         target.parent.mkdir(exist_ok=True)
         write_bytes(target, content)

@@ -27,8 +27,8 @@ from mocapbench.benchmark.task_files.uniting import united_task_files
 __all__ = [
     "DIRECTORY",
     "Found",
-    "MergeSource",
-    "read_source",
+    "MergedRun",
+    "read_merged_run",
     "unite_fits",
     "unite_plans",
     "unite_records",
@@ -39,7 +39,7 @@ DIRECTORY = "run directory"
 
 
 @dataclass(frozen=True)
-class MergeSource:
+class MergedRun:
     """A run directory and what is whole in it.
 
     Parameters
@@ -69,7 +69,7 @@ class MergeSource:
     task_files: tuple[TaskFile, ...]
 
 
-def read_source(path: Path) -> MergeSource:
+def read_merged_run(path: Path) -> MergedRun:
     """Return what is whole in the run directory ``path``.
 
     Raises
@@ -84,7 +84,7 @@ def read_source(path: Path) -> MergeSource:
     runs = plan.get("runs", ()) or ({DIRECTORY: str(path), **plan["provenance"]},)
     about = tuple({name: str(value) for name, value in run.items()} for run in runs)
     jobs, task_files = tuple(planned_jobs(plan)), planned_task_files(plan)
-    return MergeSource(store, records, fits, store.load_keys(), jobs, about, task_files)
+    return MergedRun(store, records, fits, store.load_keys(), jobs, about, task_files)
 
 
 def _plan(store: RunDirectory, records: Iterable[Record]) -> Mapping[str, Any]:
@@ -106,11 +106,11 @@ Found = tuple[Record, Path]
 """A record and the file that it is in."""
 
 
-def unite_records(sources: Sequence[MergeSource]) -> dict[str, Found]:
+def unite_records(merged: Sequence[MergedRun]) -> dict[str, Found]:
     """Return one record for each key.
 
     A job that went well counts rather than one that broke. Which of several equal ones is taken
-    does not depend on the order of the sources.
+    does not depend on the order of the runs.
 
     Raises
     ------
@@ -118,9 +118,9 @@ def unite_records(sources: Sequence[MergeSource]) -> dict[str, Found]:
         If two records of one key have different scores.
     """
     found: dict[str, list[Found]] = defaultdict(list)
-    for source in sources:
-        for key, record in source.records.items():
-            found[key].append((record, source.store.record_path(key)))
+    for run in merged:
+        for key, record in run.records.items():
+            found[key].append((record, run.store.record_path(key)))
     _check_agreement(found.values())
     return {key: min(several, key=_preference) for key, several in found.items()}
 
@@ -159,12 +159,12 @@ def _differences(one: Found, other: Found) -> list[str]:
     ]
 
 
-def unite_fits(sources: Sequence[MergeSource]) -> dict[str, Path]:
-    """Return one file of predictions for each key, whatever the order of the sources."""
+def unite_fits(merged: Sequence[MergedRun]) -> dict[str, Path]:
+    """Return one file of predictions for each key, whatever the order of the runs."""
     found: dict[str, list[Path]] = defaultdict(list)
-    for source in sources:
-        for key in source.fits:
-            found[key].append(source.store.fit_path(key))
+    for run in merged:
+        for key in run.fits:
+            found[key].append(run.store.fit_path(key))
     return {key: paths[0] if len(paths) == 1 else _first(paths) for key, paths in found.items()}
 
 
@@ -173,15 +173,15 @@ def _first(paths: Iterable[Path]) -> Path:
 
 
 def unite_plans(
-    sources: Sequence[MergeSource], records: Mapping[str, Found], keys: Mapping[str, KeyEntry]
+    merged: Sequence[MergedRun], records: Mapping[str, Found], keys: Mapping[str, KeyEntry]
 ) -> dict[str, Any]:
-    """Return the plan of all jobs of ``sources``.
+    """Return the plan of all jobs of the runs.
 
     Of two jobs in one row of the tables, one without its recordings gives way.
 
     Parameters
     ----------
-    sources : sequence of MergeSource
+    merged : sequence of MergedRun
         The first one's order goes before that of what others add.
     records : mapping of str to Found
         The records that are kept, by key.
@@ -191,14 +191,14 @@ def unite_plans(
     Raises
     ------
     UsageError
-        If two sources have different jobs in one row.
+        If two runs have different jobs in one row.
     """
     rows: dict[Hashable, dict[str, PlannedJob]] = defaultdict(dict)
-    for job in (job for source in sources for job in source.jobs):
+    for job in (job for run in merged for job in run.jobs):
         rows[job.address._replace(version=0)].setdefault(job.key, job)
     jobs = [_one(list(row.values()), records, keys) for row in rows.values()]
-    runs = _distinct(run for source in sources for run in source.runs)
-    task_files = united_task_files(file for source in sources for file in source.task_files)
+    runs = _distinct(run for one in merged for run in one.runs)
+    task_files = united_task_files(file for run in merged for file in run.task_files)
     return plan_document(
         _in_table_order(jobs),
         provenance=_provenance(runs),

@@ -3,8 +3,8 @@
 The *fit key* covers the problem (its address and root seed, the function that poses it with its
 arguments, data digests), the model (name, parameters, source) and the numerical libraries. The
 *score key* adds the metrics, so that a changed metric scores stored predictions again without
-fitting again. `sources` says which code counts, `descriptions` how values are told apart, and
-`key_parts` which part of a key is new.
+fitting again. `source_code.digest` says which code counts, `descriptions` how values are told
+apart, and `key_parts` which part of a key is new.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 
-__all__ = ["plan", "required_sources"]
+__all__ = ["plan", "required_recordings"]
 
 _MISSING = "missing"
 
@@ -55,7 +55,7 @@ def plan(request: Request, archive: Archive) -> tuple[Job, ...]:
     )
 
 
-def required_sources(request: Request, archive: Archive) -> tuple[str, ...]:
+def required_recordings(request: Request, archive: Archive) -> tuple[str, ...]:
     """Return the addresses of every recording that ``request`` needs, each once.
 
     Raises
@@ -107,7 +107,7 @@ def _name_results(
     scored_by: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Return the keys of a job, and what they cover."""
-    seen, compared = ({uri: digests[uri] for uri in of} for of in (case.sources, case.references))
+    seen, compared = ({uri: digests[uri] for uri in of} for of in (case.given, case.references))
     fitted = fit_contents(
         case,
         seeds,

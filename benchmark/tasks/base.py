@@ -37,7 +37,7 @@ class Case:
         ``seeds`` alone, and what it reads from ``archive`` alone.
     columns : mapping of str to str, int or float
         What the row varies, as columns of its table.
-    sources : tuple of str
+    given : tuple of str
         Addresses of the recordings that models see of it, such as ``cmu:02_01``.
     references : tuple of str
         Addresses of the recordings that no model sees, and that solutions are compared with.
@@ -62,7 +62,7 @@ class Case:
     name: str
     problem: PoseProblem
     columns: Mapping[str, str | int | float] = field(default_factory=dict)
-    sources: tuple[str, ...] = ()
+    given: tuple[str, ...] = ()
     references: tuple[str, ...] = ()
     problem_name: str = ""
     training: str = ""
@@ -81,7 +81,7 @@ class Case:
     @property
     def recordings(self) -> tuple[str, ...]:
         """Addresses of all recordings that it takes, each once."""
-        return tuple(dict.fromkeys((*self.sources, *self.references)))
+        return tuple(dict.fromkeys((*self.given, *self.references)))
 
 
 def on_recordings(cases: Iterable[Case]) -> tuple[str, ...]:

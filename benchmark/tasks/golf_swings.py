@@ -59,14 +59,14 @@ def _swing(archive: Archive, uri: str, first: int, last: int) -> Recording:
 
 
 def _case(name: str, swing: str, held_out: str, frames: dict[str, tuple[int, int]]) -> Case:
-    sources = (held_out, *(uri for uri in frames if uri != held_out))
+    given = (held_out, *(uri for uri in frames if uri != held_out))
     problem = partial(golf_problem, frames, held_out)
     synthetic = frames is SYNTHETIC
     return Case(
         name,
         problem,
         {"swing": swing},
-        sources,
+        given,
         training=f"all but {held_out}",
         synthetic=synthetic,
         subjects=() if synthetic else (subject_of(held_out),),

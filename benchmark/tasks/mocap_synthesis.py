@@ -51,22 +51,22 @@ _NOT_SMOKE = (
 
 
 def motion_problem(
-    sources: tuple[str, ...],
+    given: tuple[str, ...],
     windows: Mapping[str, Window],
     seeds: Seeds,
     archive: Archive,
     *,
     references: tuple[str, ...],
 ) -> SynthesiseProblem:
-    """Train on excerpts of ``sources`` within ``windows``; draw at the first one's times."""
+    """Train on excerpts of ``given`` within ``windows``; draw at the first one's times."""
     del seeds  # the recordings are all there is
-    train = tuple(read_excerpt(archive, uri, windows) for uri in sources)
+    train = tuple(read_excerpt(archive, uri, windows) for uri in given)
     return SynthesiseProblem(
         train=train,
         times=train[0].times,
         n_samples=N_SAMPLES,
         references=tuple(read_excerpt(archive, uri, EVALUATION).values for uri in references),
-        body=JointAngles(archive.skeleton(sources[0])),
+        body=JointAngles(archive.skeleton(given[0])),
     )
 
 
@@ -84,13 +84,13 @@ def _rows(
     unseen = tuple(name for name, uri in references.items() if uri not in trained_on.values())
     if len(unseen) < len(references):
         groups["unseen only"] = unseen
-    sources = tuple(trained_on.values())
+    given = tuple(trained_on.values())
     return tuple(
         Case(
             f"{name}{suffix}",
-            partial(motion_problem, sources, windows, references=uris),
+            partial(motion_problem, given, windows, references=uris),
             {"trained on": ", ".join(trained_on), "reference": name},
-            sources,
+            given,
             uris,
             problem_name=problem_name,
             subjects=(subject_of(uris[0]),) if len(uris) == 1 else (),
@@ -101,13 +101,13 @@ def _rows(
 
 
 def _synthetic(trained_on: tuple[str, ...], compared_with: tuple[str, ...]) -> Case:
-    sources = tuple(f"gait:{key}" for key in trained_on)
+    given = tuple(f"gait:{key}" for key in trained_on)
     references = tuple(f"gait:{key}" for key in compared_with)
     return Case(
         "synthetic",
-        partial(motion_problem, sources, TRAINING, references=references),
+        partial(motion_problem, given, TRAINING, references=references),
         {"trained on": "generated gait", "reference": f"{len(references)} generated"},
-        sources,
+        given,
         references,
         synthetic=True,
     )

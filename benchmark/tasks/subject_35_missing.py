@@ -85,8 +85,8 @@ def _real(part: str) -> Case:
 def _synthetic(part: str) -> Case:
     columns = {"hidden": part, "trained on": "six recordings of a generated walker"}
     problem = partial(subject_35_problem, SYNTHETIC_TRAINING, SYNTHETIC_TEST, part)
-    sources = (SYNTHETIC_TEST, *SYNTHETIC_TRAINING)
-    return Case(f"synthetic {part}", problem, columns, sources, synthetic=True)
+    given = (SYNTHETIC_TEST, *SYNTHETIC_TRAINING)
+    return Case(f"synthetic {part}", problem, columns, given, synthetic=True)
 
 
 _CASES = (*map(_real, PARTS), *map(_synthetic, PARTS))

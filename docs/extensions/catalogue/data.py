@@ -64,7 +64,7 @@ class Posed(NamedTuple):
 
 def recordings(task: Task, archive: Archive) -> list[Group]:
     """Return the recordings of a task by library and subject, those that models see first."""
-    seen = dict.fromkeys(uri for case in task.cases for uri in case.sources)
+    seen = dict.fromkeys(uri for case in task.cases for uri in case.given)
     others = dict.fromkeys(uri for case in task.cases for uri in case.references if uri not in seen)
     return [*_groups(sorted(seen), archive, seen=True), *_groups(sorted(others), archive)]
 

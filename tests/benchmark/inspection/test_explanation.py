@@ -68,7 +68,7 @@ TASKS = {
         name="waves",
         version=1,
         requires={"fills frames"},
-        cases=(Case("gap", gap, sources=("waves:a",), parameters={"size": 2}),),
+        cases=(Case("gap", gap, given=("waves:a",), parameters={"size": 2}),),
         profiles={"quick": Profile(("gap",), folds=2)},
         page=TaskPage(title="Waves", reference="", description="A gap.", metrics=("mse",)),
     )

@@ -5,17 +5,17 @@ import pytest
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import TASKS
-from mocapbench.benchmark.runs.plan import plan, required_sources
+from mocapbench.benchmark.runs.plan import plan, required_recordings
 from mocapbench.benchmark.runs.request import Request
 from mocapbench.benchmark.tasks.base import Entrant
 
 
 def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
     assert (
-        required_sources(Request(tasks=("missing-frames",), models=("mohgp",)), archive_at(None))
+        required_recordings(Request(tasks=("missing-frames",), models=("mohgp",)), archive_at(None))
         == ()
     )
-    wanted = required_sources(
+    wanted = required_recordings(
         Request(tasks=("missing-frames",), models=("cubic-spline",)), archive_at(None)
     )
     assert "cmu:35_03" in wanted
@@ -70,10 +70,10 @@ def test_two_rows_of_one_name_are_refused(complaint, changes):
 
 @pytest.mark.parametrize("uri", ["nowhere:01_01", "01_01", "cmu:"])
 def test_an_address_that_no_library_can_have_is_refused_by_task_and_case(uri):
-    case = dataclasses.replace(FIRST, sources=(uri,))
+    case = dataclasses.replace(FIRST, given=(uri,))
     TASKS.add("mine", dataclasses.replace(TASK, name="mine", cases=(case, *TASK.cases[1:])))
     request = Request("paper", tasks=("mine",), cases=(FIRST.name,))
-    for ask in (plan, required_sources):
+    for ask in (plan, required_recordings):
         with pytest.raises(UsageError, match=f"task 'mine', case '{FIRST.name}': .* got '{uri}'"):
             ask(request, archive_at(None))
 
@@ -89,7 +89,7 @@ CANNOT_RUN = {
 @pytest.mark.parametrize(("complaint", "changes"), CANNOT_RUN.items(), ids=CANNOT_RUN)
 def test_what_could_not_be_run_or_shown_is_refused_before_the_run(complaint, changes):
     TASKS.add("mine", dataclasses.replace(TASK, name="mine", **changes))
-    for ask in (plan, required_sources):
+    for ask in (plan, required_recordings):
         with pytest.raises(UsageError, match=f"task 'mine'.*{complaint}"):
             ask(Request("smoke", tasks=("mine",)), archive_at(None))
 

@@ -143,7 +143,7 @@ def keys(check, text):
     task = build_task(check(text))
     case = task.cases[0]
     seeds = Seeds(0, Address(task.name, 1, case.problem_name, 0, "linear"))
-    digests = dict.fromkeys(case.sources, "the same")
+    digests = dict.fromkeys(case.given, "the same")
     return fit_contents(case, seeds, model=LinearImputer, parameters={}, digests=digests)
 
 

@@ -58,7 +58,7 @@ def test_cases_of_one_problem_differ_in_their_references_alone(name):
     first = {}
     for case in TASKS.get(name).cases:
         other = first.setdefault(case.problem_name, case)
-        assert (case.sources, case.parameters) == (other.sources, other.parameters)
+        assert (case.given, case.parameters) == (other.given, other.parameters)
         assert case is other or case.references != other.references
 
 
@@ -111,7 +111,7 @@ def test_a_case_has_its_own_name_for_its_problem_unless_it_shares_one():
 
 
 def test_recordings_are_named_once_each():
-    case = Case("c", partial(_wave, 3), sources=("x:a", "x:b"), references=("x:b", "x:c"))
+    case = Case("c", partial(_wave, 3), given=("x:a", "x:b"), references=("x:b", "x:c"))
     assert case.recordings == ("x:a", "x:b", "x:c")
 
 

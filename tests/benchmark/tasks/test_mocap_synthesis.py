@@ -36,8 +36,8 @@ def test_cases_of_one_problem_share_seeds_and_fits_and_no_record(jobs):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_cases_of_one_problem_have_one_set_of_training_recordings(name):
-    sources = {case.problem_name: case.sources for case in TASKS.get(name).cases}
-    assert all(sources[case.problem_name] == case.sources for case in TASKS.get(name).cases)
+    sources = {case.problem_name: case.given for case in TASKS.get(name).cases}
+    assert all(sources[case.problem_name] == case.given for case in TASKS.get(name).cases)
 
 
 def test_only_what_needs_a_missing_recording_lacks_data(jobs):
@@ -75,7 +75,7 @@ def test_recordings_share_90_frames_of_39_channels_from_time_0(pose_or_skip, nam
 def test_kicks_that_models_learn_from_are_none_of_the_unseen():
     rows = [c for c in TASKS.get("soccer-synthesis").cases if c.name.startswith("unseen only")]
     assert [len(case.references) for case in rows] == [3, 3]
-    assert not any(set(case.references) & set(case.sources) for case in rows)
+    assert not any(set(case.references) & set(case.given) for case in rows)
 
 
 @pytest.mark.slow
@@ -109,5 +109,5 @@ def test_short_kicks_are_cut_as_the_references_are(pose_or_skip):
 @pytest.mark.parametrize("name", NAMES)
 def test_generated_references_are_of_other_walkers(name):
     case = TASKS.get(name).case("synthetic")
-    walkers = [{uri.partition("_")[0] for uri in of} for of in (case.sources, case.references)]
+    walkers = [{uri.partition("_")[0] for uri in of} for of in (case.given, case.references)]
     assert not set.intersection(*walkers)

@@ -129,7 +129,7 @@ def test_a_name_on_the_page_that_the_task_does_not_have_is_named(field, value, c
 
 def test_a_task_that_cannot_be_tried_without_recordings_is_refused(tmp_path, monkeypatch):
     monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path))
-    case = Case("test 1", TASK.cases[0].problem, sources=("cmu:02_01",))
+    case = Case("test 1", TASK.cases[0].problem, given=("cmu:02_01",))
     profiles = {"smoke": Profile(("test 1",), 1)}
     page = replace(TASK.page, rows={})
     task = replace(TASK, cases=(case,), profiles=profiles, page=page)
