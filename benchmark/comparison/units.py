@@ -1,7 +1,7 @@
 """The units of a comparison and their advantages, by the rules of the report.
 
 `mocapbench.reports.analysis.units` states what a unit is: a person, where cases or folds go through
-recordings of people. `mocapbench.reports.analysis.grid` states the loss of a fold.
+recordings of people. `MetricInfo.linear_losses` states the loss of a fold.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import CaseLayout, MetricInfo
-from mocapbench.reports.analysis.grid import linear_losses
 from mocapbench.reports.analysis.units import unit_names, unit_weights
 
 __all__ = ["units_of", "with_advantages"]
@@ -29,7 +28,7 @@ def with_advantages(pairs: pd.DataFrame, metric: MetricInfo) -> pd.DataFrame:
     """
     advantages = np.zeros(len(pairs))
     for places in pairs.groupby(level="case", sort=False).indices.values():
-        first, second = linear_losses(pairs.to_numpy()[places].T, metric)
+        first, second = metric.linear_losses(pairs.to_numpy()[places].T)
         advantages[places] = second - first
     return pairs.assign(advantage=advantages)
 

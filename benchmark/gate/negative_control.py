@@ -11,12 +11,12 @@ from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.results.bundle import bundle
 from mocapbench.benchmark.runs.record import Record
-from mocapbench.reports.analysis.negative_control import negative_control
-from mocapbench.reports.analysis.negative_control_result import (
+from mocapbench.reports.analysis.negative_control import (
     EXEMPT,
     Decision,
     Measure,
     NegativeControlResult,
+    negative_control,
 )
 from mocapbench.reports.analysis.results import task_results
 
@@ -118,4 +118,6 @@ def _too_few(finding: NegativeControlResult) -> str:
 def _offences(measure: Measure) -> str:
     if measure.estimate is None:
         return "it has no score to set beside the control's"
-    return ", ".join(f"{cell.case} fold {cell.fold} {cell.value:.3f}" for cell in measure.offending)
+    return ", ".join(
+        f"{case} fold {fold} {value:.3f}" for (case, fold), value in measure.offending.items()
+    )

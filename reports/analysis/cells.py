@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from mocapbench.basics.arrays import Array
-from mocapbench.reports.analysis.grid import linear_losses
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.units import unit_kind, unit_names, unit_weights
 from mocapbench.reports.bundle.layout import CaseLayout
@@ -108,21 +107,20 @@ class Cells:
 
 def cells(results: TaskResults, metric: str, cases: Sequence[CaseLayout] | None = None) -> Cells:
     """Return the cells of ``cases``, by default of the representative ones, that have any score."""
-    shown = results.representative_cases(metric) if cases is None else cases
-    grid, independent = results.grid, results.layout.independent_folds
-    scored = [case for case in shown if case.name in grid.cases]
-    ranked = [label for label in results.layout.ranked if label in grid.labels]
-    values = grid.select(metric, ranked, [case.name for case in scored])
-    losses = linear_losses(values, results.metrics[metric])
-    units = [
-        unit for case in scored for unit in unit_names(case, grid.folds, independent=independent)
-    ]
+    known = results.representative_cases(metric) if cases is None else cases
+    scored = set(results.folds.index.get_level_values("case"))
+    shown = [case for case in known if case.name in scored]
+    folds, independent = results.folds.columns, results.layout.independent_folds
+    ranked = results.layout.ranked
+    values = results.values(metric, ranked, [case.name for case in shown])
+    losses = results.metrics[metric].linear_losses(values)
+    units = [unit for case in shown for unit in unit_names(case, folds, independent=independent)]
     shape = (len(ranked), len(units))
-    of_cells = tuple(case.name for case in scored for _ in grid.folds)
-    kinds = {unit_kind(case, independent=independent).value for case in scored}
+    of_cells = tuple(case.name for case in shown for _ in folds)
+    kinds = {unit_kind(case, independent=independent).value for case in shown}
     kind = kinds.pop() if len(kinds) == 1 else "unit"
     values, losses = values.reshape(shape), losses.reshape(shape)
-    return _without_empty(Cells(tuple(ranked), values, losses, of_cells, tuple(units), kind))
+    return _without_empty(Cells(ranked, values, losses, of_cells, tuple(units), kind))
 
 
 def _without_empty(whole: Cells) -> Cells:

@@ -27,50 +27,106 @@ lower, which gains nothing.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
 
 import pandas as pd
 
-from mocapbench.reports.analysis.fold_mean import FoldMean
-from mocapbench.reports.analysis.negative_control_result import (
-    Decision,
-    Measure,
-    NegativeControlResult,
-    OffendingCell,
-)
+from mocapbench.reports.analysis.estimates import FoldMean
 from mocapbench.reports.analysis.results import TaskResults
 
-__all__ = ["ENOUGH_CELLS", "LEAST_VARIANCE_RATIO", "NEAR_ZERO", "negative_control"]
+__all__ = [
+    "ENOUGH_CELLS",
+    "EXEMPT",
+    "LEAST_VARIANCE_RATIO",
+    "NEAR_ZERO",
+    "Decision",
+    "Measure",
+    "NegativeControlResult",
+    "negative_control",
+]
 
 NEAR_ZERO = 0.1
 LEAST_VARIANCE_RATIO = 0.75
+LEAST_ABOVE_ZERO = math.ulp(0.0)
 ENOUGH_CELLS = 6
+EXEMPT = "need not pass"
 
 
-class _Criterion(NamedTuple):
-    """What is asked of a measure.
+class Decision(StrEnum):
+    """What the cells say of a criterion, the gravest first."""
+
+    FAILED = "failed"
+    UNDECIDED = "undecided"
+    """The cells are too few to tell."""
+    PASSED = "passed"
+
+
+@dataclass(frozen=True)
+class Measure:
+    """The result by one measure.
 
     Parameters
     ----------
-    passes : callable
-        Whether the mean over all cells, with its interval, meets it.
-    low, high : float
-        The values that meet it, in a single cell.
+    name : str
+        ``"MLC"``, ``"MCC"`` or ``"variance ratio"``. For an entrant the first two are
+        differences from the control.
+    estimate : FoldMean or None
+        The mean over all cells; None where there is none.
+    decision : Decision
+    offending : mapping of (case, fold) to float
+        The cells whose value, taken by itself, fails the criterion; empty unless the measure
+        failed.
     """
 
-    passes: Callable[[FoldMean], bool]
-    low: float
-    high: float = math.inf
+    name: str
+    estimate: FoldMean | None
+    decision: Decision
+    offending: Mapping[tuple[str, int], float]
 
-    def meets(self, value: float) -> bool:
-        """Return whether the value of one cell meets it."""
-        return self.low <= value <= self.high
 
-    def within_reach(self, estimate: FoldMean) -> bool:
-        """Return whether the interval of the mean has values that meet it."""
-        half = math.inf if estimate.half_width is None else estimate.half_width
-        return estimate.mean + half >= self.low and estimate.mean - half <= self.high
+@dataclass(frozen=True)
+class NegativeControlResult:
+    """The result of one entrant.
+
+    Parameters
+    ----------
+    label : str
+    measures : tuple of Measure
+    exempt : str
+        Why it need not pass, empty where it must.
+    """
+
+    label: str
+    measures: tuple[Measure, ...]
+    exempt: str = ""
+
+    @property
+    def decision(self) -> Decision:
+        """The gravest by any measure."""
+        return min((measure.decision for measure in self.measures), key=list(Decision).index)
+
+    @property
+    def n_cells(self) -> int:
+        """The number of cells compared, by the measure that has the fewest."""
+        return min(measure.estimate.n if measure.estimate else 0 for measure in self.measures)
+
+    @property
+    def verdict(self) -> str:
+        """``"passed"``, ``"failed"``, ``"undecided"`` or ``"need not pass"``."""
+        exempt = self.exempt and self.decision is not Decision.PASSED
+        return EXEMPT if exempt else self.decision.value
+
+    @property
+    def failed(self) -> bool:
+        """Whether it had to pass and did not."""
+        return self.decision is Decision.FAILED and not self.exempt
+
+    @property
+    def undecided(self) -> bool:
+        """Whether it has to pass, and cells are too few to tell whether it does."""
+        return self.decision is Decision.UNDECIDED and not self.exempt
 
 
 def negative_control(results: TaskResults) -> tuple[NegativeControlResult, ...]:
@@ -88,7 +144,7 @@ def negative_control(results: TaskResults) -> tuple[NegativeControlResult, ...]:
     mlc_of_control = _column(cells, "mlc", layout.control)
     if mlc_of_control.empty:
         return ()
-    control = _measure("MLC", mlc_of_control, _NEAR_ZERO)
+    control = _measure("MLC", mlc_of_control, _is_near_zero, -NEAR_ZERO, NEAR_ZERO)
     entrants = [label for label in layout.labels if label != layout.control]
     return (
         NegativeControlResult(layout.control, (control,)),
@@ -107,9 +163,14 @@ def _measures(cells: pd.DataFrame, label: str, control: str) -> tuple[Measure, .
         for metric in ("mlc", "mcc")
     )
     return (
-        _measure("MLC", mlc, _ABOVE_ZERO),
-        _measure("MCC", mcc, _ABOVE_ZERO),
-        _measure("variance ratio", _column(cells, "variance_ratio", label), _VARIED),
+        _measure("MLC", mlc, _is_above_zero, LEAST_ABOVE_ZERO),
+        _measure("MCC", mcc, _is_above_zero, LEAST_ABOVE_ZERO),
+        _measure(
+            "variance ratio",
+            _column(cells, "variance_ratio", label),
+            _is_varied,
+            LEAST_VARIANCE_RATIO,
+        ),
     )
 
 
@@ -120,30 +181,36 @@ def _column(cells: pd.DataFrame, metric: str, label: str) -> pd.Series[float]:
     return cells[metric, label].dropna()
 
 
-def _measure(name: str, values: pd.Series[float], criterion: _Criterion) -> Measure:
+def _measure(
+    name: str,
+    values: pd.Series[float],
+    passes: Callable[[FoldMean], bool],
+    low: float,
+    high: float = math.inf,
+) -> Measure:
+    """Return the result by one measure.
+
+    Parameters
+    ----------
+    name : str
+    values : Series
+        By cell.
+    passes : callable
+        Whether the mean over all cells, with its interval, meets the criterion.
+    low, high : float
+        The values that meet it, in a single cell.
+    """
     if values.empty:
-        return Measure(name, None, Decision.FAILED, ())
-    estimate, offending = FoldMean.of(values.to_list()), _offending(values, criterion)
-    decision = _decision(estimate, criterion, offending)
-    return Measure(name, estimate, decision, offending if decision is Decision.FAILED else ())
-
-
-def _decision(
-    estimate: FoldMean, criterion: _Criterion, offending: Sequence[OffendingCell]
-) -> Decision:
-    if criterion.passes(estimate):
-        return Decision.PASSED
-    too_few = estimate.n < ENOUGH_CELLS and criterion.within_reach(estimate)
-    return Decision.UNDECIDED if too_few or not offending else Decision.FAILED
-
-
-def _offending(values: pd.Series[float], criterion: _Criterion) -> tuple[OffendingCell, ...]:
-    cells: Sequence[tuple[tuple[str, int], float]] = list(values.items())  # type: ignore[arg-type]
-    return tuple(
-        OffendingCell(case, fold, value)
-        for (case, fold), value in cells
-        if not criterion.meets(value)
-    )
+        return Measure(name, None, Decision.FAILED, {})
+    estimate = FoldMean.of(values.to_list())
+    offending = values[~values.between(low, high)].to_dict()
+    half = math.inf if estimate.half_width is None else estimate.half_width
+    within_reach = estimate.mean + half >= low and estimate.mean - half <= high
+    if passes(estimate):
+        return Measure(name, estimate, Decision.PASSED, {})
+    if not offending or (estimate.n < ENOUGH_CELLS and within_reach):
+        return Measure(name, estimate, Decision.UNDECIDED, {})
+    return Measure(name, estimate, Decision.FAILED, offending)
 
 
 def _is_above_zero(estimate: FoldMean) -> bool:
@@ -158,8 +225,3 @@ def _is_near_zero(estimate: FoldMean) -> bool:
 
 def _is_varied(estimate: FoldMean) -> bool:
     return estimate.mean >= LEAST_VARIANCE_RATIO
-
-
-_ABOVE_ZERO = _Criterion(_is_above_zero, low=math.ulp(0.0))  # the least number above 0
-_NEAR_ZERO = _Criterion(_is_near_zero, low=-NEAR_ZERO, high=NEAR_ZERO)
-_VARIED = _Criterion(_is_varied, low=LEAST_VARIANCE_RATIO)

@@ -1,25 +1,27 @@
-"""One task's results as a grid: means over folds and failures by case, label and metric."""
+"""One task's results: scores, means over folds and failures by case, label and metric."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import shlex
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from mocapbench.reports.analysis.estimates import estimates
-from mocapbench.reports.analysis.failures import DATA_MISSING, Failure, list_failures
-from mocapbench.reports.analysis.fold_mean import FoldMean
-from mocapbench.reports.analysis.grid import Grid
+from mocapbench.basics.arrays import Array
+from mocapbench.reports.analysis.estimates import FoldMean, estimates, fold_table
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout, TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.paper.published import PublishedTask, PublishedValue, published_values
 from mocapbench.reports.text import decimals
 
-__all__ = ["TaskResults", "task_results"]
+__all__ = ["DATA_MISSING", "TaskResults", "list_failures", "task_results"]
+
+DATA_MISSING = "data-missing"
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,11 +34,12 @@ class TaskResults:
     metrics : mapping of str to MetricInfo
     scores, records : DataFrame
         The task's rows of the bundle's tables, without scores that are not finite.
-    grid : Grid
-        The scores as an array.
+    folds : DataFrame
+        The scores by metric, label and case, with a column a fold.
     estimates : mapping of (case, label, metric) to FoldMean
-    failures : mapping of (case, label) to tuple of Failure
-        Jobs that failed, be it by one metric alone, or whose data are missing.
+    failures : mapping of (case, label) to sequence of rows
+        Jobs that failed, be it by one metric alone, or whose data are missing: rows of
+        `list_failures`.
     published : mapping of (case, metric, model) to PublishedValue
         In the paper's names.
     """
@@ -45,9 +48,9 @@ class TaskResults:
     metrics: Mapping[str, MetricInfo]
     scores: pd.DataFrame
     records: pd.DataFrame
-    grid: Grid
+    folds: pd.DataFrame
     estimates: Mapping[tuple[str, str, str], FoldMean]
-    failures: Mapping[tuple[str, str], tuple[Failure, ...]]
+    failures: Mapping[tuple[str, str], Sequence[Any]]
     published: PublishedTask
 
     @cached_property
@@ -55,6 +58,12 @@ class TaskResults:
         """The cases that ran, in table order."""
         ran = set(pd.unique(self.records["case"]))
         return tuple(case for case in self.layout.cases if case.name in ran)
+
+    def values(self, metric: str, labels: Sequence[str], cases: Sequence[str]) -> Array:
+        """Return the scores of ``metric``, of shape (n_labels, n_cases, n_folds); NaN of none."""
+        wanted = pd.MultiIndex.from_product([[metric], labels, cases])
+        values = self.folds.reindex(wanted).to_numpy()
+        return values.reshape(len(labels), len(cases), values.shape[1])
 
     @cached_property
     def without_data(self) -> frozenset[str]:
@@ -73,11 +82,11 @@ class TaskResults:
             means.setdefault(metric, []).append(estimate.mean)
         return {metric: decimals(values) for metric, values in means.items()}
 
-    def find_failures(self, case: str, label: str, metric: str) -> tuple[Failure, ...]:
+    def find_failures(self, case: str, label: str, metric: str) -> list[Any]:
         """Return the failures that cost a score of ``metric``: another may be what failed."""
         folds = self._scored_folds.get((case, label, metric), set())
         found = self.failures.get((case, label), ())
-        return tuple(failure for failure in found if failure.fold not in folds)
+        return [failure for failure in found if failure.fold not in folds]
 
     @cached_property
     def _scored_folds(self) -> Mapping[tuple[str, str, str], set[int]]:
@@ -90,6 +99,12 @@ class TaskResults:
     def estimate(self, case: str, label: str, metric: str) -> FoldMean | None:
         """Return the mean over folds, or None where the label has no score."""
         return self.estimates.get((case, label, metric))
+
+    def case_means(self, metric: str, label: str) -> list[float]:
+        """Return the mean of each case that enters means over cases and has a score."""
+        cases = self.representative_cases(metric)
+        found = [self.estimate(case.name, label, metric) for case in cases]
+        return [estimate.mean for estimate in found if estimate is not None]
 
     def published_value(self, case: CaseLayout, label: str, metric: str) -> PublishedValue | None:
         """Return the published counterpart of our estimate, or None where there is none."""
@@ -133,23 +148,39 @@ def task_results(bundle: Bundle, layout: TaskLayout) -> TaskResults:
     """Return the results of the task that ``layout`` describes."""
     scores = bundle.scores[bundle.scores["task"] == layout.name]
     scores = scores[np.isfinite(scores["value"].to_numpy(float))].sort_values("fold", kind="stable")
-    grid = Grid.of(scores, layout.labels, [case.name for case in layout.cases])
     return TaskResults(
         layout=layout,
         metrics=bundle.metrics,
         scores=scores,
         records=bundle.records[bundle.records["task"] == layout.name],
-        grid=grid,
-        estimates=estimates(grid, layout.cases, independent=layout.independent_folds),
-        failures=_group_failures(bundle, layout.name),
+        folds=fold_table(scores, "value"),
+        estimates=estimates(scores, layout.cases, independent=layout.independent_folds),
+        failures=_group_failures(list_failures(bundle, layout.name)),
         published=published_values(layout.name),
     )
 
 
-def _group_failures(bundle: Bundle, task: str) -> dict[tuple[str, str], tuple[Failure, ...]]:
-    """Return the failures of ``task`` by (case, label)."""
-    by_cell: dict[tuple[str, str], tuple[Failure, ...]] = {}
-    for failure in list_failures(bundle, task):
-        cell = (failure.case, failure.label)
-        by_cell[cell] = (*by_cell.get(cell, ()), failure)
+def list_failures(bundle: Bundle, task: str | None = None) -> pd.DataFrame:
+    """Return the jobs that did not end well, of one task or all, in the order of the records.
+
+    Returns
+    -------
+    DataFrame
+        Columns ``id``, the anchor of its entry on the page, ``task``, ``case``, ``fold``,
+        ``label``, ``status``, ``message``, ``traceback``, ``missing``, the names of recordings
+        that it lacked, and ``fetch``, the command that gets them. A job that lost a metric alone
+        has the scores of the others.
+    """
+    texts = ["task", "case", "label", "status", "message", "traceback", "missing", "fetch"]
+    lost = bundle.records[bundle.records["status"] != "ok"].reindex(columns=["fold", *texts])
+    lost[texts] = lost[texts].astype(object).where(lost[texts].notna(), "")
+    lost["missing"] = lost["missing"].map(shlex.split)
+    lost["id"] = [f"job-{number}" for number in range(1, len(lost) + 1)]
+    return lost if task is None else lost[lost["task"] == task]
+
+
+def _group_failures(failures: pd.DataFrame) -> dict[tuple[str, str], list[Any]]:
+    by_cell: dict[tuple[str, str], list[Any]] = {}
+    for failure in failures.itertuples():
+        by_cell.setdefault((failure.case, failure.label), []).append(failure)
     return by_cell

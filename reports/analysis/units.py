@@ -20,15 +20,17 @@ t-test over their values.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
+from typing import Self
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from mocapbench.reports.bundle.layout import CaseLayout
 
-__all__ = ["UnitKind", "unit_kind", "unit_names", "unit_weights"]
+__all__ = ["FoldSample", "UnitKind", "unit_kind", "unit_names", "unit_weights"]
 
 
 class UnitKind(StrEnum):
@@ -46,7 +48,7 @@ def unit_kind(case: CaseLayout, *, independent: bool) -> UnitKind:
     return UnitKind.FOLD if independent else UnitKind.CASE
 
 
-def unit_names(case: CaseLayout, folds: Sequence[int], *, independent: bool) -> list[str]:
+def unit_names(case: CaseLayout, folds: Iterable[int], *, independent: bool) -> list[str]:
     """Return the unit of each fold of a case."""
     match unit_kind(case, independent=independent):
         case UnitKind.SUBJECT:
@@ -54,7 +56,7 @@ def unit_names(case: CaseLayout, folds: Sequence[int], *, independent: bool) -> 
         case UnitKind.FOLD:
             return [f"fold {fold} of {case.name}" for fold in folds]
         case UnitKind.CASE:
-            return [f"case {case.name}"] * len(folds)
+            return [f"case {case.name}" for _ in folds]
 
 
 def unit_weights(units: Sequence[str], cases: Sequence[str]) -> csr_array[np.float64]:
@@ -76,3 +78,29 @@ def unit_weights(units: Sequence[str], cases: Sequence[str]) -> csr_array[np.flo
     weights = [1.0 / (len(n_cells) * n_cells[case]) for case in cases]
     places = [rows[unit] for unit in units], range(len(units))
     return csr_array((weights, places), shape=(len(rows), len(units)))
+
+
+@dataclass(frozen=True, eq=False)
+class FoldSample:
+    """The values of a label, one a fold, with the weights of each in their mean.
+
+    Parameters
+    ----------
+    values : tuple of float
+        One a fold, n in all, each finite.
+    weights : sparse array of shape (n_units, n)
+        Of the folds, each in the row of its unit. Their sum is 1.
+    """
+
+    values: tuple[float, ...]
+    weights: csr_array[np.float64]
+
+    @classmethod
+    def of(cls, values: Sequence[float], units: Sequence[str], cases: Sequence[str]) -> Self:
+        """Return the sample of values whose units and cases are given."""
+        return cls(tuple(values), unit_weights(units, cases))
+
+    @property
+    def n_units(self) -> int:
+        """How many independent units there are."""
+        return int(self.weights.shape[0])

@@ -5,6 +5,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+import numpy as np
+
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction
 
 __all__ = ["MetricInfo"]
@@ -52,6 +55,23 @@ class MetricInfo:
     def loss(self, value: float) -> float:
         """Return the loss of ``value``: lower is better for every direction."""
         return self.direction.loss(value, self.target)
+
+    def linear_losses(self, values: Array) -> Array:
+        """Return losses whose mean over the folds of a case is the loss of the mean.
+
+        Where the metric has a target, the loss is the distance from it on the side where the mean
+        of the case lies: above it, what a fold has more; below it, what it has less.
+
+        Parameters
+        ----------
+        values : ndarray of shape (..., n_folds)
+            NaN where a fold has no score.
+        """
+        if self.direction is not Direction.TARGET or self.target is None:
+            return np.asarray(self.loss(1.0) * values)
+        distances = np.where(np.isfinite(values), values - self.target, 0.0)
+        below = distances.sum(axis=-1, keepdims=True) < 0.0
+        return np.where(below, -1.0, 1.0) * (values - self.target)
 
     @property
     def short(self) -> str:

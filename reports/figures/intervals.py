@@ -6,7 +6,7 @@ import numpy as np
 
 from mocapbench.basics.arrays import Array
 from mocapbench.metrics.statistics import ALPHA, unit_means
-from mocapbench.reports.analysis.fold_sample import FoldSample
+from mocapbench.reports.analysis.units import FoldSample
 from mocapbench.reports.figures.scale import Scale
 
 __all__ = ["centre", "interval"]

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 import numpy as np
 from markupsafe import Markup, escape
 
-from mocapbench.reports.analysis.fold_sample import FoldSample
+from mocapbench.reports.analysis.units import FoldSample
 from mocapbench.reports.figures.axes import format_tick
 from mocapbench.reports.figures.fitting import fit_scale
 from mocapbench.reports.figures.intervals import centre, interval

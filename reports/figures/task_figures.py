@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from mocapbench.reports.analysis.published.comparisons import every_comparison
+from mocapbench.reports.analysis.comparisons import every_comparison
 from mocapbench.reports.analysis.ranks import ranks_over_units
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.error_parts import ErrorParts
@@ -57,8 +57,10 @@ def folded_figures(results: TaskResults, parts: ErrorParts, styles: Styles) -> l
 
 
 def _ranks(results: TaskResults, metric: str, styles: Styles) -> SvgFigure | None:
-    ranks, title = ranks_over_units(results, metric), results.metrics[metric].title
-    return rank_figure(ranks, f"{title}, ranks over {ranks.unit}s", styles) if ranks else None
+    losses, title = ranks_over_units(results, metric), results.metrics[metric].title
+    if losses is None:
+        return None
+    return rank_figure(losses, f"{title}, ranks over {losses.index.name}s", styles)
 
 
 def _drop_missing(*figures: SvgFigure | None) -> list[SvgFigure]:

@@ -12,9 +12,7 @@ import numpy as np
 
 from mocapbench.basics.words import format_count
 from mocapbench.metrics.base import Direction
-from mocapbench.reports.analysis.case_means import case_means
-from mocapbench.reports.analysis.failures import DATA_MISSING, Failure
-from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.results import DATA_MISSING, TaskResults
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.task_page import QUESTIONS
@@ -228,13 +226,13 @@ def reference_of(results: TaskResults) -> str | None:
 
 def _mean(results: TaskResults, metric: str, label: str) -> float | None:
     """Return the mean over the cases that count; None where the label has no score."""
-    means = case_means(results, metric, label)
+    means = results.case_means(metric, label)
     return float(np.mean(means)) if means else None
 
 
 def _mean_loss(results: TaskResults, metric: str, label: str) -> float:
     """Return the mean loss over the cases that count, where the label has a score."""
-    return float(np.mean([*map(results.metrics[metric].loss, case_means(results, metric, label))]))
+    return float(np.mean([*map(results.metrics[metric].loss, results.case_means(metric, label))]))
 
 
 def _cell(
@@ -295,7 +293,7 @@ def _failed_cells(results: TaskResults, scored: Container[str]) -> Mapping[str, 
     scored : container of str
         The labels that have a mean.
     """
-    by_label: dict[str, list[Failure]] = {}
+    by_label: dict[str, list[Any]] = {}
     for (_, label), failures in results.failures.items():
         failed = [failure for failure in failures if failure.status != DATA_MISSING]
         if failed and label not in scored:
@@ -304,6 +302,6 @@ def _failed_cells(results: TaskResults, scored: Container[str]) -> Mapping[str, 
     return {label: _failed_cell(failed, int(tried[label])) for label, failed in by_label.items()}
 
 
-def _failed_cell(failed: list[Failure], n_jobs: int) -> BoardCell:
+def _failed_cell(failed: Sequence[Any], n_jobs: int) -> BoardCell:
     note = f"in {len(failed)} of {n_jobs}"
     return BoardCell(FAILED, math.nan, FAILED, link=failed[0].id, note=note)

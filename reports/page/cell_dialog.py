@@ -18,8 +18,8 @@ from typing import Any
 from jinja2.utils import htmlsafe_json_dumps
 from markupsafe import Markup
 
-from mocapbench.reports.analysis.fold_mean import FoldMean
-from mocapbench.reports.analysis.published.comparisons import Comparison, every_comparison
+from mocapbench.reports.analysis.comparisons import Comparison, every_comparison
+from mocapbench.reports.analysis.estimates import FoldMean
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.origin import Origin

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Container, Iterable, Sequence
+from collections.abc import Container, Sequence
 from typing import Any
 
-from mocapbench.reports.analysis.failures import Failure
+import pandas as pd
+
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.task_page import QUESTIONS
@@ -52,8 +53,13 @@ def task_notes(results: TaskResults, shared: Container[str]) -> list[str]:
     return [*own, *footnotes(letters(results))]
 
 
-def missing_data(jobs: Iterable[Failure]) -> list[Part]:
+def missing_data(jobs: pd.DataFrame) -> list[Part]:
     """Group the jobs that lack data by the command that gets them, whatever the recordings.
+
+    Parameters
+    ----------
+    jobs : DataFrame
+        Rows of `mocapbench.reports.analysis.results.list_failures`.
 
     Returns
     -------
@@ -61,17 +67,13 @@ def missing_data(jobs: Iterable[Failure]) -> list[Part]:
         The names of the ``recordings``, none where the jobs do not name them; as ``message`` the
         command, or what the jobs say; the ``tasks`` concerned, and the number of ``jobs``.
     """
-    groups: dict[str, list[Failure]] = {}
-    for job in jobs:
-        groups.setdefault(job.fetch or job.message, []).append(job)
-    return [_describe_group(start, group) for start, group in groups.items()]
-
-
-def _describe_group(start: str, group: Sequence[Failure]) -> Part:
-    recordings = list(dict.fromkeys(name for job in group for name in job.missing))
-    return {
-        "recordings": recordings,
-        "message": f"{start} {shlex.join(recordings)}".strip(),
-        "tasks": list(dict.fromkeys(job.task for job in group)),
-        "jobs": len(group),
-    }
+    starts = jobs["fetch"].where(jobs["fetch"] != "", jobs["message"])
+    return [
+        {
+            "recordings": (recordings := list(group["missing"].explode().dropna().unique())),
+            "message": f"{start} {shlex.join(recordings)}".strip(),
+            "tasks": list(group["task"].unique()),
+            "jobs": len(group),
+        }
+        for start, group in jobs.groupby(starts, sort=False)
+    ]

@@ -6,9 +6,13 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 
 from mocapbench.metrics.statistics import FEWEST_UNITS
-from mocapbench.reports.analysis.failures import DATA_MISSING, list_failures
-from mocapbench.reports.analysis.published.verdicts import RELATIVE_TOLERANCE
-from mocapbench.reports.analysis.results import TaskResults, task_results
+from mocapbench.reports.analysis.comparisons import RELATIVE_TOLERANCE
+from mocapbench.reports.analysis.results import (
+    DATA_MISSING,
+    TaskResults,
+    list_failures,
+    task_results,
+)
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.model_info import ModelInfo, in_families
 from mocapbench.reports.bundle.task_page import QUESTIONS
@@ -79,9 +83,10 @@ def _families(families: Families) -> Part:
 def _without_score(bundle: Bundle) -> Part:
     """Return the jobs that failed, and those that lacked recordings."""
     no_score = list_failures(bundle)
+    without_data = no_score["status"] == DATA_MISSING
     return {
-        "failures": [failure for failure in no_score if failure.status != DATA_MISSING],
-        "missing": missing_data(failure for failure in no_score if failure.status == DATA_MISSING),
+        "failures": list(no_score[~without_data].itertuples()),
+        "missing": missing_data(no_score[without_data]),
     }
 
 

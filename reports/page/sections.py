@@ -18,11 +18,11 @@ from mocapbench.reports.scores.table import ScoreTable, score_table
 from mocapbench.reports.tables.base import Table
 from mocapbench.reports.tables.best_reference import best_reference_table
 from mocapbench.reports.tables.calibration import calibration_table
-from mocapbench.reports.tables.contrasts import contrast_table
+from mocapbench.reports.tables.control import negative_control_table
 from mocapbench.reports.tables.cost import cost_table
 from mocapbench.reports.tables.crossed import cross_table
-from mocapbench.reports.tables.negative_control import negative_control_table
 from mocapbench.reports.tables.oracle import oracle_table
+from mocapbench.reports.tables.pairs import contrast_table
 from mocapbench.reports.tables.verdicts import verdict_table
 from mocapbench.reports.text import slug
 

@@ -13,9 +13,7 @@ import numpy as np
 from markupsafe import Markup
 
 from mocapbench.basics.words import format_count
-from mocapbench.reports.analysis.case_means import case_means
-from mocapbench.reports.analysis.failures import DATA_MISSING
-from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.results import DATA_MISSING, TaskResults
 from mocapbench.reports.analysis.standings import Place, Standing, standings
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.scores.strips import draw_strips
@@ -214,7 +212,7 @@ def _mean_cells(
     """Return the mean of each label over the cases that count, the best of all bold."""
     places, cells = results.decimals.get(metric, FEWEST_DECIMALS), {}
     for label in results.layout.labels:
-        means, standing = case_means(results, metric, label), ranked.get(label)
+        means, standing = results.case_means(metric, label), ranked.get(label)
         if not means:
             cells[label] = ABSENT
             continue

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from mocapbench.metrics.base import Direction
-from mocapbench.reports.analysis.case_means import case_means
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.text import number, slug
@@ -62,7 +61,7 @@ def _targets(results: TaskResults) -> Sequence[str]:
 
 
 def _mean_over_cases(results: TaskResults, label: str, metric: str) -> float | None:
-    means = case_means(results, metric, label)
+    means = results.case_means(metric, label)
     return float(np.mean(means)) if means else None
 
 

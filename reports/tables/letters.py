@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mocapbench.reports.analysis.published.comparisons import every_comparison
+from mocapbench.reports.analysis.comparisons import every_comparison
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.paper.remarks import marks
 

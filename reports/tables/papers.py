@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from mocapbench.reports.analysis.published.totals import (
-    Tally,
-    published_totals,
-    tallies_by_source,
+from mocapbench.reports.analysis.comparisons import (
+    PublishedVerdict,
+    count_by_source,
+    count_published,
 )
-from mocapbench.reports.analysis.published.verdicts import PublishedVerdict
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.paper.citations import CITATIONS
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
@@ -19,6 +18,10 @@ __all__ = ["papers_table", "readable"]
 
 PAPERS = {name.lower(): name for name in CITATIONS}
 VERDICTS = tuple(verdict.value for verdict in PublishedVerdict)
+COMPARED = set(VERDICTS) - {
+    PublishedVerdict.NOT_COMPARABLE.value,
+    PublishedVerdict.NOT_RUN.value,
+}
 COUNTS = ("values", *VERDICTS)
 ALL = "all published values"
 
@@ -33,10 +36,10 @@ def papers_table(tasks: Iterable[TaskResults]) -> Table | None:
     """
     tasks = list(tasks)
     rows = [row for results in tasks for row in _rows(results)]
-    totals = published_totals(tasks)
-    if not totals.compared:
+    totals = count_published(tasks)
+    if not any(totals[verdict] for verdict in COMPARED):
         return None
-    rows.append({"source": ALL, "task": "", **_counts(totals)})
+    rows.append({"source": ALL, "task": "", "values": sum(totals.values()), **totals})
     return Table(
         id="scorecard",
         caption="The papers’ tables, with the verdicts on our numbers: every value counts once",
@@ -55,13 +58,9 @@ def papers_table(tasks: Iterable[TaskResults]) -> Table | None:
 def _rows(results: TaskResults) -> list[dict[str, object]]:
     """Return a row for each table that prints values of the task."""
     return [
-        {"source": source, "task": results.layout.name, **_counts(counted)}
-        for source, counted in tallies_by_source(results).items()
+        {"source": source, "task": results.layout.name, "values": sum(counts.values()), **counts}
+        for source, counts in count_by_source(results).items()
     ]
-
-
-def _counts(counted: Tally) -> dict[str, object]:
-    return {"values": counted.total, **counted.counts}
 
 
 def _task_cell(task: str) -> Cell:

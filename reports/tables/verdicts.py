@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from mocapbench.reports.analysis.published.comparisons import Comparison, answers, comparisons
-from mocapbench.reports.analysis.published.verdicts import PublishedVerdict
+from mocapbench.reports.analysis.comparisons import (
+    Comparison,
+    PublishedVerdict,
+    answers,
+    comparisons,
+)
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.paper.remarks import PublishedAddress
 from mocapbench.reports.tables.base import Cell, Table, headings

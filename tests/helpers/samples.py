@@ -3,7 +3,7 @@
 import numpy as np
 
 from mocapbench.datasets import Recording
-from mocapbench.reports.analysis.fold_sample import FoldSample
+from mocapbench.reports.analysis.units import FoldSample
 
 __all__ = ["draws", "gap", "recording", "walks_of_two_styles"]
 

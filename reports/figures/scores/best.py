@@ -6,7 +6,6 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from mocapbench.reports.analysis.case_means import case_means
 from mocapbench.reports.analysis.results import TaskResults
 
 __all__ = ["CHOICE", "best_labels", "mean_values"]
@@ -21,7 +20,7 @@ CHOICE = (
 def mean_values(results: TaskResults, metric: str) -> dict[str, float]:
     """Return the mean over representative cases of each label that has a score in all of them."""
     n_cases = len(results.representative_cases(metric))
-    found = {label: case_means(results, metric, label) for label in results.layout.labels}
+    found = {label: results.case_means(metric, label) for label in results.layout.labels}
     complete = {label: means for label, means in found.items() if means and len(means) == n_cases}
     return {label: float(np.mean(means)) for label, means in complete.items()}
 

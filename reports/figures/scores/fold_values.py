@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping
 
-from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.units import unit_names
+from mocapbench.reports.analysis.units import FoldSample, unit_names
 
 __all__ = ["FoldValues", "fold_values"]
 

@@ -8,8 +8,7 @@ from collections.abc import Mapping, Sequence
 from markupsafe import Markup
 
 from mocapbench.basics.words import format_count
-from mocapbench.reports.analysis.published.comparisons import Comparison
-from mocapbench.reports.analysis.published.verdicts import PublishedVerdict
+from mocapbench.reports.analysis.comparisons import Comparison, PublishedVerdict
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
 from mocapbench.reports.figures.fitting import fit_scale

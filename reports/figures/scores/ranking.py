@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from mocapbench.basics.words import format_count
-from mocapbench.reports.analysis.case_means import case_means
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis
@@ -65,7 +64,7 @@ def _lines(results: TaskResults, metric: str) -> list[_Line]:
     """Return a line for each label with a score: those that compete best first, then the others."""
     ranked = [standing.label for standing in standings(results, metric)]
     others = [label for label in results.layout.labels if label not in ranked]
-    found = {label: case_means(results, metric, label) for label in (*ranked, *others)}
+    found = {label: results.case_means(metric, label) for label in (*ranked, *others)}
     return [_Line(label, float(np.mean(v)), v) for label, v in found.items() if v]
 
 

@@ -7,12 +7,12 @@ readers who do not see the bars.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 
-from markupsafe import Markup
+import pandas as pd
 
 from mocapbench.basics.words import format_count
-from mocapbench.reports.analysis.ranks import Ranks
+from mocapbench.metrics.statistics import RankComparison, compare_ranks
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
 from mocapbench.reports.figures.scale import LinearScale
@@ -26,28 +26,51 @@ BAR_GAP = 7.0
 """Between the bars of two groups, in pixels."""
 
 
-def rank_figure(ranks: Ranks, title: str, styles: Mapping[str, DrawingStyle]) -> SvgFigure:
-    """Return the diagram of ``ranks``."""
-    return SvgFigure(title, panels([_diagram(ranks, title, styles)]), (), _caption(ranks))
+def rank_figure(losses: pd.DataFrame, title: str, styles: Mapping[str, DrawingStyle]) -> SvgFigure:
+    """Return the diagram of the ranks of columns.
+
+    Parameters
+    ----------
+    losses : DataFrame
+        As `mocapbench.reports.analysis.ranks.ranks_over_units` returns them.
+    title : str
+    styles : mapping of str to DrawingStyle
+        How each label is drawn.
+    """
+    whole = losses.dropna(axis=1)
+    left_out = [str(label) for label in losses.columns.difference(whole.columns, sort=False)]
+    ranks = compare_ranks(whole.to_numpy(float))
+    means = pd.Series(ranks.mean_ranks, whole.columns).sort_values(kind="stable")
+    groups = [[str(whole.columns[entrant]) for entrant in group] for group in ranks.groups]
+    over = f"over {format_count(ranks.n, str(losses.index.name))}"
+    label = f"{title}: mean ranks of {format_count(len(means), 'entrant')} {over}"
+    marks = [text(0.0, 13.0, f"ranks {over}", "title"), *_marks(means, groups, styles)]
+    drawing = svg(WIDTH, TOP + ROW * len(means) + BOTTOM, label, marks)
+    caption = f"mean ranks {over}. {_caption(ranks, groups)}"
+    lacking = f" Left out, without every score: {', '.join(left_out)}." if left_out else ""
+    return SvgFigure(title, panels([drawing]), (), caption + lacking)
 
 
-def _diagram(ranks: Ranks, title: str, styles: Mapping[str, DrawingStyle]) -> Markup:
-    means, n_entrants = ranks.comparison.mean_ranks, len(ranks.labels)
-    order = sorted(range(n_entrants), key=means.__getitem__)
-    stop = WIDTH - 34.0 - BAR_GAP * len(ranks.comparison.groups)
-    scale, bottom = LinearScale(0.8, n_entrants, NAMES, stop), TOP + ROW * n_entrants
-    n = format_count(ranks.comparison.n, ranks.unit)
-    marks = [
-        text(0.0, 13.0, f"ranks over {n}", "title"),
-        bottom_axis(scale, bottom, "mean rank (1 is best)"),
+def _marks(
+    means: pd.Series[float], groups: Sequence[Sequence[str]], styles: Mapping[str, DrawingStyle]
+) -> list[str]:
+    """Return the axis, a row for each entrant and a bar for each group that is not separable."""
+    stop = WIDTH - 34.0 - BAR_GAP * len(groups)
+    scale = LinearScale(0.8, len(means), NAMES, stop)
+    places = {label: place_of(number) for number, label in enumerate(means.index)}
+    return [
+        bottom_axis(scale, TOP + ROW * len(means), "mean rank (1 is best)"),
+        *(_row(styles[str(n)], at, mean, scale) for at, (n, mean) in enumerate(means.items())),
         *(
-            _row(styles[ranks.labels[entrant]], number, means[entrant], scale)
-            for number, entrant in enumerate(order)
+            vertical(
+                [WIDTH - 3.0 - BAR_GAP * number],
+                places[group[0]] - 5.0,
+                places[group[-1]] + 5.0,
+                kind="bar",
+            )
+            for number, group in enumerate(reversed(groups))
         ),
-        *_bars(ranks, {entrant: number for number, entrant in enumerate(order)}),
     ]
-    label = f"{title}: mean ranks of {format_count(n_entrants, 'entrant')} over {n}"
-    return svg(WIDTH, bottom + BOTTOM, label, marks)
 
 
 def _row(style: DrawingStyle, number: int, mean: float, scale: LinearScale) -> str:
@@ -60,23 +83,10 @@ def _row(style: DrawingStyle, number: int, mean: float, scale: LinearScale) -> s
     return row(style, number, *marks, title=f"{style.label}: mean rank {mean:.2f}")
 
 
-def _bars(ranks: Ranks, rows: Mapping[int, int]) -> Iterator[str]:
-    """Yield a bar for each group that is not separable; ``rows`` are by entrant."""
-    for place, group in enumerate(reversed(ranks.comparison.groups)):
-        ends = place_of(rows[group[0]]) - 5.0, place_of(rows[group[-1]]) + 5.0
-        yield vertical([WIDTH - 3.0 - BAR_GAP * place], *ends, kind="bar")
-
-
-def _caption(ranks: Ranks) -> str:
-    comparison = ranks.comparison
-    n = format_count(comparison.n, ranks.unit)
-    groups = "; ".join(", ".join(ranks.labels[entrant] for entrant in g) for g in comparison.groups)
-    together = f"Not separable, joined by a bar: {groups}." if groups else "All are separable."
-    left_out = ", ".join(ranks.left_out)
-    return " ".join(
-        [
-            f"mean ranks over {n}. Friedman’s test of no difference: p = {comparison.p_value:.2g};",
-            f"Nemenyi’s critical difference at 5 %: {comparison.difference:.2f} ranks. {together}",
-            *([f"Left out, without every score: {left_out}."] if left_out else []),
-        ]
+def _caption(ranks: RankComparison, groups: Sequence[Sequence[str]]) -> str:
+    named = "; ".join(map(", ".join, groups))
+    together = f"Not separable, joined by a bar: {named}." if groups else "All are separable."
+    return (
+        f"Friedman’s test of no difference: p = {ranks.p_value:.2g}; "
+        f"Nemenyi’s critical difference at 5 %: {ranks.difference:.2f} ranks. {together}"
     )

@@ -9,9 +9,8 @@ import numpy as np
 from markupsafe import Markup
 
 from mocapbench.basics.words import format_count
-from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.units import unit_names
+from mocapbench.reports.analysis.units import FoldSample, unit_names
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.strip import strip, strip_axis, strip_scale
 from mocapbench.reports.figures.styles import DrawingStyle
@@ -42,15 +41,15 @@ def draw_strips(
 def _samples(
     results: TaskResults, metric: str, cases: Sequence[CaseLayout]
 ) -> Mapping[str, FoldSample]:
-    grid, independent = results.grid, results.layout.independent_folds
-    scored = [case for case in cases if case.name in grid.cases]
-    rows = grid.select(metric, grid.labels, [case.name for case in scored])
+    folds, independent = results.folds.columns, results.layout.independent_folds
+    labels, names = results.layout.labels, [case.name for case in cases]
+    rows = results.values(metric, labels, names)
     units = np.array(
-        [u for case in scored for u in unit_names(case, grid.folds, independent=independent)]
+        [u for case in cases for u in unit_names(case, folds, independent=independent)]
     )
-    of_cells = np.repeat([case.name for case in scored], len(grid.folds))
+    of_cells = np.repeat(names, len(folds))
     return {
         label: FoldSample.of(row[kept].tolist(), units[kept], of_cells[kept])
-        for label, row in zip(grid.labels, map(np.ravel, rows), strict=True)
+        for label, row in zip(labels, map(np.ravel, rows), strict=True)
         if (kept := np.isfinite(row)).any()
     }

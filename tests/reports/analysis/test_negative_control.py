@@ -13,13 +13,13 @@ from mocapbench.reports.analysis.negative_control import (
     ENOUGH_CELLS,
     LEAST_VARIANCE_RATIO,
     NEAR_ZERO,
+    Decision,
     negative_control,
 )
-from mocapbench.reports.analysis.negative_control_result import Decision
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.scores.table import score_table
-from mocapbench.reports.tables.negative_control import negative_control_table
+from mocapbench.reports.tables.control import negative_control_table
 
 CONTROL = {
     "mlc": [0.05, -0.06, 0.02, -0.03],
@@ -78,7 +78,7 @@ def test_what_resembles_passes_and_what_does_not_fails_with_its_cells(check):
     assert verdicts(results) == {"control": "passed", "good": "passed", "stranger": "failed"}
     assert failures(results) == {"stranger": ["MLC", "MCC"]}
     stranger = next(found for found in negative_control(results) if found.label == "stranger")
-    of_mlc = [(cell.case, cell.fold) for cell in stranger.measures[0].offending]
+    of_mlc = list(stranger.measures[0].offending)
     assert of_mlc == [("one", 1), ("one", 3), ("two", 1), ("two", 3)]
 
 
@@ -135,7 +135,7 @@ def test_a_control_must_be_near_zero(check, mlc, passes):
     control = negative_control(results)[0]
     assert (control.decision is Decision.PASSED) is passes
     cells = control.measures[0].offending
-    assert all(abs(cell.value) > NEAR_ZERO for cell in cells)
+    assert all(abs(value) > NEAR_ZERO for value in cells.values())
     assert bool(cells) is not passes
 
 

@@ -2,7 +2,7 @@ import re
 
 import pytest
 
-from mocapbench.metrics.statistics import FEWEST_UNITS, nemenyi
+from mocapbench.metrics.statistics import FEWEST_UNITS, compare_ranks, nemenyi
 from mocapbench.reports.analysis.ranks import ranks_over_units
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
@@ -22,21 +22,22 @@ def results_of(bundle):
 
 def test_ranks_run_over_units(small):
     ranks = ranks_over_units(results_of(small(ORDERED)), "mse")
-    assert (ranks.labels, ranks.unit) == (("a", "b", "c"), "fold")
-    assert ranks.comparison.mean_ranks == (1.0, 2.0, 3.0)
-    assert ranks.comparison.n == 8
+    assert (list(ranks), ranks.index.name) == (["a", "b", "c"], "fold")
+    assert compare_ranks(ranks).mean_ranks == (1.0, 2.0, 3.0)
+    assert len(ranks) == 8
 
 
 def test_ranks_follow_the_direction(small):
     values = {case: {"a": [0.1], "b": [0.5], "c": [0.8]} for case in "stuvwxyz"}
     ranks = ranks_over_units(results_of(small(values, metric="coverage_50")), "coverage_50")
-    assert ranks.comparison.mean_ranks == (3.0, 1.0, 2.0)
+    assert compare_ranks(ranks).mean_ranks == (3.0, 1.0, 2.0)
 
 
 def test_an_entrant_without_a_score_in_every_case_is_left_out_and_named(small):
     values = {**ORDERED, "row 1": {**ORDERED["row 1"], "d": [0.5]}}
     ranks = ranks_over_units(results_of(small(values)), "mse")
-    assert (ranks.labels, ranks.left_out) == (("a", "b", "c"), ("d",))
+    assert list(ranks.columns[ranks.notna().all()]) == ["a", "b", "c"]
+    assert ranks["d"].isna().all()
     assert "Left out, without every score: d." in rank_figure(ranks, "t", STYLES).caption
 
 
@@ -57,7 +58,7 @@ def test_ranks_run_over_subjects_where_cases_have_one(small):
     cases = tuple(CaseLayout(name, {}, subjects=(name[-1:],)) for name in (*ORDERED, "again 1"))
     results = results_of(small({**ORDERED, "again 1": ORDERED["row 1"]}, cases=cases))
     ranks = ranks_over_units(results, "mse")
-    assert (ranks.comparison.n, ranks.unit) == (8, "subject")
+    assert (len(ranks), ranks.index.name) == (8, "subject")
 
 
 @pytest.mark.parametrize(("n_cases", "n_labels"), [(4, 3), (5, 9), (5, 12)])

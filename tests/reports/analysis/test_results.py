@@ -7,9 +7,8 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from mocapbench.metrics.statistics import mean_interval
-from mocapbench.reports.analysis.failures import list_failures
-from mocapbench.reports.analysis.fold_mean import FoldMean
-from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.estimates import FoldMean
+from mocapbench.reports.analysis.results import list_failures, task_results
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.front.board import board_cells
@@ -93,8 +92,8 @@ def test_only_cases_with_records_are_shown(small):
 def test_every_job_without_a_score_is_a_failure(bundle):
     found = list_failures(bundle)
     assert len(found) == (bundle.records["status"] != "ok").sum()
-    assert len({failure.id for failure in found}) == len(found)
-    assert all(failure.message for failure in found)
+    assert found["id"].is_unique
+    assert (found["message"] != "").all()
 
 
 def test_the_spread_over_samples_is_averaged_over_folds(small):

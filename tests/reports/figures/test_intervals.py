@@ -6,7 +6,7 @@ from samples import draws
 from scipy import stats
 
 from mocapbench.metrics.statistics import mean_interval
-from mocapbench.reports.analysis.fold_sample import FoldSample
+from mocapbench.reports.analysis.units import FoldSample
 from mocapbench.reports.figures.fitting import fit_scale
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.scale import LinearScale, LogScale

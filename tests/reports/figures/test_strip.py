@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from samples import draws
 
-from mocapbench.reports.analysis.fold_sample import FoldSample
+from mocapbench.reports.analysis.units import FoldSample
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.strip import strip, strip_axis, strip_scale
 from mocapbench.reports.figures.styles import DrawingStyle

@@ -11,7 +11,7 @@ from mocapbench.reports.analysis.contrasts import contrasts
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.standings import Place, standings
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.tables.contrasts import contrast_table
+from mocapbench.reports.tables.pairs import contrast_table
 
 VALUES = {
     f"row {number}": {"a": [0.1 * number], "b": [0.5 + 0.101 * number], "c": [0.11 * number]}

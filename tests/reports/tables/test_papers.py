@@ -1,6 +1,6 @@
 import pytest
 
-from mocapbench.reports.analysis.published.totals import published_totals
+from mocapbench.reports.analysis.comparisons import count_published
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.paper.published import every_value
 from mocapbench.reports.tables.base import ABSENT
@@ -39,7 +39,7 @@ def test_the_last_row_counts_all_published_values(tasks, counts):
     values, *verdicts = counts[ALL].values()
     assert list(counts)[-1] == ALL
     assert values == len(every_value())
-    assert dict(zip(VERDICTS, verdicts, strict=True)) == published_totals(tasks).counts
+    assert dict(zip(VERDICTS, verdicts, strict=True)) == count_published(tasks)
 
 
 def test_a_value_that_two_entrants_answer_counts_once(counts):

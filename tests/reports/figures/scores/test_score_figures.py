@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.reports.analysis.published.comparisons import comparisons
+from mocapbench.reports.analysis.comparisons import comparisons
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.error_parts import ErrorParts, RestPose
 from mocapbench.reports.bundle.model_info import ModelInfo

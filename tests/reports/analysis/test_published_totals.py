@@ -2,18 +2,24 @@ from collections import Counter
 
 import pytest
 
-from mocapbench.reports.analysis.published.comparisons import answers, every_comparison
-from mocapbench.reports.analysis.published.totals import (
-    published_totals,
-    tallies_by_source,
+from mocapbench.reports.analysis.comparisons import (
+    PublishedVerdict,
+    answers,
+    count_by_source,
+    count_published,
+    every_comparison,
 )
-from mocapbench.reports.analysis.published.verdicts import PublishedVerdict
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.bundle.task_page import RowNotes
 from mocapbench.reports.paper.published import every_value, published_values
 
 NAN = float("nan")
+COMPARED = [
+    verdict.value
+    for verdict in PublishedVerdict
+    if verdict not in (PublishedVerdict.NOT_COMPARABLE, PublishedVerdict.NOT_RUN)
+]
 
 
 @pytest.fixture
@@ -23,18 +29,18 @@ def tasks(bundle):
 
 @pytest.mark.parametrize("n_tasks", [0, 1, 3])
 def test_totals_add_up_to_the_published_values_whatever_ran(tasks, n_tasks):
-    totals = published_totals(tasks[:n_tasks])
-    assert totals.total == sum(totals.counts.values()) == len(every_value())
-    assert list(totals.counts) == [verdict.value for verdict in PublishedVerdict]
-    assert (totals.compared > 0) == (n_tasks > 0)
+    totals = count_published(tasks[:n_tasks])
+    assert sum(totals.values()) == len(every_value())
+    assert list(totals) == [verdict.value for verdict in PublishedVerdict]
+    assert any(totals[verdict] for verdict in COMPARED) == (n_tasks > 0)
 
 
 def test_totals_are_those_of_the_papers_tables(tasks):
     for results in tasks:
-        by_source = tallies_by_source(results)
+        by_source = count_by_source(results)
         values = published_values(results.layout.name).values()
         expected = Counter(value.source for value in values)
-        assert {source: found.total for source, found in by_source.items()} == expected
+        assert {source: sum(found.values()) for source, found in by_source.items()} == expected
 
 
 def test_each_value_is_answered_once_and_by_a_comparison_of_its_own(tasks):
@@ -65,7 +71,7 @@ def walking(small, scores, *, labels=("mohgp-1", "mohgp-3"), reasons=None):
 
 
 def counts_of(results):
-    return sum((Counter(found.counts) for found in tallies_by_source(results).values()), Counter())
+    return sum((Counter(found) for found in count_by_source(results).values()), Counter())
 
 
 def answering(results):
@@ -79,7 +85,8 @@ def answering(results):
 def test_which_entrant_answers_depends_on_the_page_and_on_no_score(small, scores, labels):
     results = walking(small, scores, labels=labels)
     assert answering(results) == {"mohgp-1"}
-    assert sum(found.compared for found in tallies_by_source(results).values()) == 1
+    counts = counts_of(results)
+    assert sum(counts[verdict] for verdict in COMPARED) == 1
 
 
 def test_the_next_answers_where_the_first_has_no_score_or_may_not_be_compared(small):

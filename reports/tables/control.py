@@ -9,12 +9,10 @@ from mocapbench.reports.analysis.negative_control import (
     ENOUGH_CELLS,
     LEAST_VARIANCE_RATIO,
     NEAR_ZERO,
-    negative_control,
-)
-from mocapbench.reports.analysis.negative_control_result import (
     Decision,
     Measure,
     NegativeControlResult,
+    negative_control,
 )
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
