@@ -59,7 +59,7 @@ class MOHGP(GaussianProcess, Trended):
 
     Attributes
     ----------
-    clocks_ : dict of str to Clock
+    clocks_ : dict of str to TimeMap
         By the name of each recording, how ``registration`` moved it in time.
 
     Notes

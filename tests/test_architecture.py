@@ -14,7 +14,7 @@ PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 
 MOST_MODULES = 16
 LISTS = {
-    "baselines": 31,  # one module a model
+    "baselines": 32,  # one module a model
     "benchmark/cli": 18,  # one module a command
     "benchmark/tasks": 19,  # one module a protocol
     "baselines/alignment": 17,

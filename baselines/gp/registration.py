@@ -29,7 +29,7 @@ from mocapbench.baselines.common.recordings import visible_moments
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Frames, Recording
 
-__all__ = ["REGISTRATIONS", "Clock", "keep_times", "register_affinely"]
+__all__ = ["REGISTRATIONS", "TimeMap", "keep_times", "register_affinely"]
 
 
 SHIFTS = np.linspace(-0.3, 0.3, 25)
@@ -41,7 +41,7 @@ LEAST_OVERLAP = 0.6
 
 
 @dataclass(frozen=True)
-class Clock:
+class TimeMap:
     """The map from times of the reference to those of a recording: start + b (t − origin).
 
     Parameters
@@ -65,13 +65,13 @@ class Clock:
         return self.origin + (times - self.start) / self.pace
 
 
-Registered = tuple[Recording, Clock]
+Registered = tuple[Recording, TimeMap]
 """A recording as the model takes it, and the clock by which it was moved."""
 
 
 def keep_times(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
     """Return the recordings as they are."""
-    return tuple((recording, Clock()) for recording in recordings)
+    return tuple((recording, TimeMap()) for recording in recordings)
 
 
 def register_affinely(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
@@ -82,7 +82,7 @@ def register_affinely(recordings: Sequence[Recording]) -> tuple[Registered, ...]
     return tuple(
         _register_recording(recording, reference, scale)
         if recording is not reference and recording.visible.all() and len(recording.times) > 1
-        else (recording, Clock())
+        else (recording, TimeMap())
         for recording in recordings
     )
 
@@ -92,8 +92,8 @@ def _register_recording(recording: Recording, reference: Recording, scale: Array
     spline = CubicSpline(recording.times, recording.values)
     first, span = float(reference.times[0]), float(np.ptp(reference.times))
 
-    def clock(warp: Array) -> Clock:
-        return Clock(first, first + span * float(warp[0]), float(np.exp(warp[1])))
+    def clock(warp: Array) -> TimeMap:
+        return TimeMap(first, first + span * float(warp[0]), float(np.exp(warp[1])))
 
     def at(warp: Array) -> Array:
         times = clock(warp).to_recording(reference.times)
@@ -105,7 +105,7 @@ def _register_recording(recording: Recording, reference: Recording, scale: Array
 
     start = min((np.array(warp) for warp in product(SHIFTS, LOG_PACES)), key=error)
     if np.isinf(error(start)):  # too short, or nothing of the reference is visible
-        return recording, Clock()
+        return recording, TimeMap()
     found = minimize(error, start, method="Nelder-Mead").x
     moved = replace(recording, times=reference.times, values=at(found))
     return moved, clock(found)

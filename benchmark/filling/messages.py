@@ -192,7 +192,7 @@ def _warn_of_doubts(filled: FilledFile) -> Iterator[str]:
     yield from _warn_of_replaced_values(request)
     yield from _warn_of_jumps(filled)
     yield from _warn_of_long_intervals(request)
-    yield from filled.source.remarks
+    yield from filled.input_file.remarks
 
 
 def _warn_of_few_visible(filled: FilledFile) -> Iterator[str]:

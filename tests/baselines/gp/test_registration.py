@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.registration import Clock, register_affinely
+from mocapbench.baselines.gp.registration import TimeMap, register_affinely
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.datasets import Recording
 
@@ -33,7 +33,7 @@ def test_a_shifted_and_slower_copy_is_moved_back(shift, log_pace, offset):
     reference = _incomplete()
     (kept, unmoved), (moved, clock) = register_affinely([reference, copy])
     assert kept is reference
-    assert unmoved == Clock()
+    assert unmoved == TimeMap()
     np.testing.assert_array_equal(moved.times, reference.times)
     np.testing.assert_allclose(moved.values, offset + _movement(TIMES), atol=0.02)
     np.testing.assert_allclose(
@@ -56,7 +56,7 @@ def test_incomplete_recordings_and_those_too_short_to_compare_are_left_alone():
     short = _recording("short", _movement(TIMES[:20]), TIMES[:20])
     recordings = [_incomplete(), _recording("other", _movement(TIMES)).hide(TIMES[:, None] < 0.1)]
     given = (*recordings, short)
-    assert register_affinely(given) == tuple((each, Clock()) for each in given)
+    assert register_affinely(given) == tuple((each, TimeMap()) for each in given)
 
 
 def test_complete_recordings_are_moved_onto_the_first():

@@ -10,9 +10,9 @@ from mocapbench.benchmark import (
     Request,
     Solved,
     archive_at,
-    find_calibration,
     plan,
 )
+from mocapbench.benchmark.registry import find_calibration
 from mocapbench.benchmark.runs.fitting.solve import solve, train
 from mocapbench.reports import Motions
 from mocapbench.reports.figures.pictures.draw import draw
