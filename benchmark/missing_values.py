@@ -7,7 +7,7 @@ rule cannot tell, values stay, and the user may say what marks missing ones.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from math import isfinite, nan
 
@@ -30,10 +30,12 @@ _FAR, _LONG = 3.0, 0.95
 origin beside zeros."""
 _ABOVE_NINES, _ABOVE_ALL, _REPEATED, _FEWEST_NINES = 2.0, 1000.0, 3, 3
 """How many times as large as all others a number of nines is, or one that occurs so often."""
-_LEAST_HELD, _LEAP, _LEAST_STEP, _COARSE = 5, 2.0, 1 / 3, 0.05
+_LEAST_HELD, _LEAP, _LEAST_STEP = 5, 2.0, 1 / 3
 """Frames that a value is held, at least; how many times as long as those around it the step is that
-ends it, and as long as usual the step beside one that is held at an end; share of coordinates that
-repeat by themselves in files of so few digits that all may."""
+ends it, and as long as usual the step beside one that is held at an end."""
+_COARSE, _MOSTLY = 0.05, 0.5
+"""Share of coordinates that repeat by themselves in files of so few digits that all may; share of
+frames in which others move."""
 
 
 Told = tuple[Mask, tuple[str, ...]]
@@ -96,10 +98,9 @@ def _tell_marked(mark: Callable[[Recording], Mask], recording: Recording) -> Tol
 def undecided_values(recording: Recording) -> str:
     """Return which values may stand for missing ones where no rule tells it."""
     zeros = {name: int(rows.sum()) for name, rows in _zero_rows(recording).items()}
-    held = {
-        name: max(stop - start for start, stop in runs)
-        for name, runs in _held_runs(recording).items()
-    }
+    held: dict[str, int] = {}
+    for name, start, stop, _ in _find_held(recording):
+        held[name] = max(held.get(name, 0), stop - start)
     sentences = (
         _count_frames(zeros, "exactly 0, 0, 0 in {} and elsewhere in others", "zeros"),
         _count_frames(held, "exactly where the frame before has it for {}", "held"),
@@ -207,12 +208,10 @@ def _tell_held(recording: Recording) -> Told:
     markers = markers_of(recording.channels, recording.units)
     mask = np.zeros(recording.values.shape, dtype=bool)
     told: dict[str, int] = {}
-    for name, runs in _held_runs(recording).items():
-        places = list(markers[name])
-        for start, stop in runs:
-            if _is_sudden(recording.values[:, places], start, stop):
-                mask[start:stop, places] = True
-                told[name] = told.get(name, 0) + stop - start
+    for name, start, stop, sudden in _find_held(recording):
+        if sudden:
+            mask[start:stop, list(markers[name])] = True
+            told[name] = told.get(name, 0) + stop - start
     if not told:
         return mask, ()
     keep = "keeps" if len(told) == 1 else "keep"
@@ -226,30 +225,38 @@ def _tell_held(recording: Recording) -> Told:
     )
 
 
-def _held_runs(recording: Recording) -> dict[str, list[tuple[int, int]]]:
-    """Return the frames [start, stop) in which each marker is exactly where it was before.
+def _find_held(recording: Recording) -> Iterator[tuple[str, int, int, bool]]:
+    """Yield each marker that is exactly where it was before, and in which frames [start, stop).
 
-    At least half of the others, and two, move meanwhile. Where coordinates have so few digits that
-    single ones repeat often, all may, and nothing is returned of the marker.
+    With them goes whether it leaps before or after them, while at least half of the others move.
+    Where coordinates have so few digits that single ones repeat often, all may by themselves, and
+    nothing is said of the marker.
     """
     markers = markers_of(recording.channels, recording.units)
-    if not markers:
-        return {}
-    values = recording.values[:, [list(places) for places in markers.values()]]  # (N, M, 3)
+    places = np.array([*markers.values()], dtype=np.intp).reshape(-1, 3)
+    values = recording.values[:, places]  # (N, M, 3)
     seen = np.asarray(np.isfinite(values).all(axis=2))
     both = np.zeros(seen.shape, dtype=bool)
     both[1:] = seen[1:] & seen[:-1]
     same = _repeat_last(values)
-    held = same.all(axis=2) & both
-    moving = (both & ~held).sum(axis=1)
-    others_move = moving >= np.maximum(2, both.sum(axis=1) / 2)
-    found = {}
+    held = same.all(axis=2) & both & (values != 0.0).any(axis=2)
+    others_move = 2 * (both & ~held).sum(axis=1) >= np.maximum(2, both.sum(axis=1))
     for place, name in enumerate(markers):
-        steps = same[both[:, place] & ~held[:, place], place]
-        if len(steps) and steps.mean() <= _COARSE:
-            runs = run_bounds(held[:, place] & others_move).tolist()
-            found[name] = [(start, stop) for start, stop in runs if stop - start >= _LEAST_HELD]
-    return {name: runs for name, runs in found.items() if runs}
+        if _is_fine(same[both[:, place] & ~held[:, place], place]):
+            for start, stop in run_bounds(held[:, place]).tolist():
+                if stop - start >= _LEAST_HELD:
+                    alone = bool(others_move[start:stop].mean() >= _MOSTLY)
+                    yield name, start, stop, alone and _is_sudden(values[:, place], start, stop)
+
+
+def _is_fine(same: Mask) -> bool:
+    """Return whether coordinates have so many digits that hardly any repeats in a step (K, 3).
+
+    A coordinate that never changes does not count.
+    """
+    shares = np.mean(same, axis=0) if len(same) else np.ones(3)
+    changing = shares[shares < 1.0]
+    return bool(len(changing) and changing.mean() <= _COARSE)
 
 
 def _is_sudden(values: Array, start: int, stop: int) -> bool:

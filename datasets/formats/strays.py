@@ -15,7 +15,7 @@ _WORDS = "unlabell?ed|unnamed|unidentified|unassigned|unknown|uname"
 _STRAY = re.compile(
     rf"""(.*:)?  # the subject
     ( [*?]+\d*
-    | [*]?({_WORDS})([\s_.:\#*-]*\d+)?
+    | [*]?({_WORDS})([\s_]?(marker|point|trajectory|track))?([\s_.:\#*(-]*\d+\)?)?
     | [*]?new[\s_]*\d+
     | [*]?u_\d+
     )

@@ -139,6 +139,20 @@ def test_whoever_stands_still_is_there():
     assert not tell_missing(still.with_values(values))[0].any()
 
 
+def test_what_a_single_marker_holds_is_left_and_said():
+    alone = held(walking(), 50, 70, FIRST).select(["M0.x", "M0.y", "M0.z"])
+    mask, remarks = tell_missing(alone)
+    assert not mask.any()
+    assert remarks[0].startswith("M0 is exactly where the frame before has it for 20 frames: if")
+
+
+def test_markers_in_a_plane_are_held_as_others_are():
+    flat = marked(held(walking(), 50, 70, FIRST), slice(None), slice(2, None, 3), 0.0)
+    expected = np.zeros(flat.values.shape, dtype=bool)
+    expected[50:70, FIRST] = True
+    assert np.array_equal(tell_missing(flat)[0], expected)
+
+
 def test_positions_of_few_digits_may_repeat():
     assert not tell_missing(walking(speed=0.0, digits=0))[0].any()
 

@@ -9,7 +9,8 @@ have no names, blanks stand for tabs, lines are missing. What the rows have deci
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -98,21 +99,29 @@ def parse_head(file: str, lines: Sequence[str]) -> TRCHead:
         expected = "a line that begins with 'Frame#' and names the markers"
         got = repr(lines[0][:60].rstrip()) if lines else "an empty file"
         raise FormatError(file, expected, got, "export the markers as TRC")
-    cells = _splitter(lines[names_at])
+    separators = [one for one in _SEPARATORS if one in lines[names_at]][:1]
+    cells = _find_splitter(lines[names_at], separators)
     facts = _facts([_split_line(cells, lines[k]) for k in written if k < names_at])
-    names = _split_line(cells, lines[names_at].rstrip())[LEADING:]
-    start = next((k for k in written if k > names_at), names_at + 1)
-    is_row = start < len(lines) and any(map(looks_numeric, cells.split(lines[start])))
-    return TRCHead(facts, names, names_at, start + (not is_row), cells)
+    first, *names = _split_line(cells, lines[names_at].rstrip())
+    names = names if first.lower().endswith("time") else names[1:]
+    below = [k for k in written if k > names_at]
+    start = next((k for k in below[:2] if _has_numbers(lines[k])), len(lines))
+    # Rows may have tabs below names with blanks, or blanks below names with tabs.
+    first_row = "".join(lines[start : start + 1])
+    return TRCHead(facts, names, names_at, start, _find_splitter(first_row, ["\t", *separators]))
 
 
 def _names_markers(line: str) -> bool:
     return line.lstrip(' "').lower().startswith("frame")
 
 
-def _splitter(names: str) -> CellSplitter:
-    """Return what separates the cells of the line that names the markers: blanks, if nothing."""
-    found = next((separator for separator in _SEPARATORS if separator in names), None)
+def _has_numbers(line: str) -> bool:
+    return any(map(looks_numeric, re.split(r"[\s;,]+", line)))
+
+
+def _find_splitter(line: str, separators: Iterable[str]) -> CellSplitter:
+    """Return what separates the cells of a line: the first of the separators, else blanks."""
+    found = next((separator for separator in separators if separator in line), None)
     return Words() if found is None else Separated(found)
 
 

@@ -152,6 +152,11 @@ ODD = {  # each with what it warns of
     "blanks around names": (lambda t: t.replace("Time\troot", " Time\t root "), ""),
     "names side by side": (lambda t: t.replace(HEAD, HEAD.replace("\t\t\t", "\t")), ""),
     "names far apart": (lambda t: t.replace(HEAD, HEAD.replace("\t\t\t", "\t" * 6)), ""),
+    "a blank between frame and time": (lambda t: t.replace("Frame#\tTime", "Frame# Time"), ""),
+    "blanks between names": (
+        lambda t: t.replace(HEAD, re.sub("\t+", "  ", HEAD)),
+        "",
+    ),
     "quotes": (lambda t: t.replace("root", '"root"'), ""),
     "decimal commas": (lambda t: t.replace("markers.", "markers").replace(".", ","), ""),
     "commas for tabs": (lambda t: t.replace("\t", ","), ""),
@@ -207,6 +212,27 @@ def test_no_other_character_is_written(given, tmp_path, change):
     again = TRC.read(out)
     assert np.array_equal(again.values[odd.visible], odd.values[odd.visible])
     assert (again.values[~odd.visible] == 12345.5).all()
+
+
+@pytest.mark.parametrize("head", [True, False])
+def test_blanks_may_separate_rows_that_lack_nothing(tmp_path, head):
+    write_trc(tmp_path / "given.trc", markers(40))
+    plain, text = TRC.read(tmp_path / "given.trc"), (tmp_path / "given.trc").read_text()
+    above, rows = text.split("\n\n")
+    spaced = [above.replace("\t\t\t", "  ").replace("\t", " ") if head else above]
+    spaced.append(rows.replace("\t", "   ").replace("NaN", "nan"))
+    (tmp_path / "spaced.trc").write_text("\n\n".join(spaced))
+    read = TRC.read(tmp_path / "spaced.trc")
+    assert read.channels == plain.channels
+    assert np.array_equal(read.values, plain.values)
+    replaced = np.zeros(read.values.shape, dtype=bool)
+    replaced[5, 3] = True
+    values = np.where(replaced, 0.5, read.values)
+    TRC.write(tmp_path / "out.trc", read.with_values(values), tmp_path / "spaced.trc", replaced)
+    one, two = ((tmp_path / f"{name}.trc").read_text() for name in ("spaced", "out"))
+    assert [a for a, b in zip(one.split(), two.split(), strict=True) if a != b] == [
+        f"{plain.values[5, 3]:.5f}"
+    ]
 
 
 @pytest.mark.parametrize("between", ["\t\t", " ", "  \t "])
