@@ -2,10 +2,12 @@
 
     python docs/evidence/fuzz_formats.py 10000 walk.c3d walk.bvh
 
-Reading may give a recording or a `FormatError`. Anything else is printed and ends with exit code 1.
+Reading may give a recording or a `FormatError`, also at a rate and with rows added that are
+missing. Anything else is printed and ends with exit code 1.
 """
 
 import random
+import resource
 import shutil
 import sys
 import time
@@ -23,6 +25,8 @@ from mocapbench.datasets import Format, FormatError, Recording
 def outcome(kind: Format, path: Path) -> str:
     """Return what reading a file gave, in a word or two."""
     try:
+        kind.with_missing_rows().read(path, 100.0)
+        kind.likelihoods(path)
         recording = kind.read(path)
     except FormatError as error:
         crashed = "crash of the library" in error.got
@@ -59,6 +63,8 @@ def main(n_times: str, *paths: str) -> int:
         told = ", ".join(f"{count} {what}" for what, count in sorted(counts.items()))
         print(f"{path.name}: {n_times} files in {seconds:.0f} s: {told}", flush=True)
         defects += counts["defect"]
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**10
+    print(f"at most {peak:.0f} MiB of memory")
     return 1 if defects else 0
 
 

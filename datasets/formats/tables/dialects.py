@@ -121,6 +121,7 @@ _NEXUS = Dialect(
     names=(_AXES_OF_NEXUS, -1),
     units=(_AXES_OF_NEXUS, 1),
     rate=r'\A[^\n]*\n"?([\d.]+)',
+    length="mm",
     blocks=("Trajectories", "Joints", "Model Outputs", "Segments"),
     zeros=True,
 )

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mocapbench.datasets.formats.errors import FormatError
-from mocapbench.datasets.formats.tables.notation import Notation
+from mocapbench.datasets.formats.tables.notation import Notation, notation_of
 from mocapbench.datasets.formats.text.numbers import is_missing, looks_numeric
 
 __all__ = ["check_lines", "column_names"]
 
 _SHOWN = 60
+_LEAST = 2  # columns
 _EXPECTED = "the names of the columns, with commas, semicolons or tabs between them"
 _EXAMPLE = "write such as 'time,hip.x [cm],hip.y [cm]' in the first line"
+_DEEPEST = 60
+"""Lines among which the names of columns are sought, to say where they are."""
 
 
 def check_lines(file: str, lines: Sequence[str]) -> None:
@@ -44,8 +47,16 @@ def column_names(file: str, lines: Sequence[str], notation: Notation) -> list[st
     if _stands_above(names, below):
         advice = "remove what stands above the names of the columns"
         raise FormatError(file, _EXPECTED, _quote_line(lines[0]), advice, line=1)
+    lower = _find_names(lines, len(names))
+    if lower is not None:
+        advice = (
+            f"line {lower + 1} seems to name the columns, below a head of a program that is not "
+            "known: remove the lines above, or export the recording as C3D or TRC"
+        )
+        raise FormatError(file, _EXPECTED, _quote_line(lines[0]), advice, line=1)
     if all(is_missing(name) or looks_numeric(name) for name in names):
-        raise FormatError(file, _EXPECTED, _quote_line(lines[0]), _EXAMPLE, line=1)
+        advice = f"export the table with its head, or {_EXAMPLE}"
+        raise FormatError(file, _EXPECTED, _quote_line(lines[0]), advice, line=1)
     if notation.separator == "," and len(names) < len(below) and all(map(looks_numeric, below)):
         advice = (
             "if commas are decimal marks here, put semicolons between columns, else name every "
@@ -60,6 +71,21 @@ def _stands_above(names: Sequence[str], below: Sequence[str]) -> bool:
     """Return whether the first line is a comment, or tells Excel what separates columns."""
     other = len(names) != len(below) or not any(map(looks_numeric, below))
     return names[0].lower().startswith("sep=") or (names[0].startswith("#") and other)
+
+
+def _find_names(lines: Sequence[str], width: int) -> int | None:
+    """Return the first line that seems to name the columns, if it is not the first of all.
+
+    It has another number of cells than the first line of all, none of them a number, and a line of
+    as many cells below, most of them numbers.
+    """
+    for index in range(1, min(_DEEPEST, len(lines) - 1)):
+        cells = notation_of(lines[index : index + 2]).cells
+        names, below = cells.split(lines[index]), cells.split(lines[index + 1])
+        n_numbers = sum(map(looks_numeric, below))
+        if len(names) == len(below) >= _LEAST and 2 * n_numbers > len(below):
+            return None if width == len(names) or any(map(looks_numeric, names)) else index
+    return None
 
 
 def _quote_line(line: str) -> str:

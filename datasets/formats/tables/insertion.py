@@ -52,11 +52,12 @@ def _insert_rows(sheet: Sheet, values: FrameByChannel, new: Mask) -> dict[int, l
     rows, columns = sheet.plan.rows, sheet.columns.channels
     shape = (*rows.shape, len(columns))
     values, new = values.reshape(shape), new.reshape(shape)
-    inserted, before = defaultdict(list), 0
-    for frame, group in np.ndindex(*rows.shape):
-        if rows[frame, group] >= 0:
-            before = int(rows[frame, group])
-        elif new[frame, group].any() or (rows[frame] < 0).all():
+    places = np.where(rows.ravel() >= 0, np.arange(rows.size), 0)
+    last = rows.ravel()[np.maximum.accumulate(places)].clip(0)  # the row of the entries before
+    inserted = defaultdict(list)
+    for frame, group in np.argwhere(rows < 0).tolist():
+        before = int(last[frame * rows.shape[1] + group])
+        if new[frame, group].any() or (rows[frame] < 0).all():
             cells: dict[int, str] = {
                 column: format_number(values[frame, group, k], sheet.table.decimal)
                 for k, column in enumerate(columns)

@@ -11,7 +11,6 @@ from mocapbench.datasets.formats.base import Extra, Format
 from mocapbench.datasets.formats.building import recording_of
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.isolation.calls import IsolatedCallError, call_isolated
-from mocapbench.datasets.formats.tables.clock import Clock
 from mocapbench.datasets.formats.tables.columns import (
     TableColumns,
     sort_columns,
@@ -19,6 +18,7 @@ from mocapbench.datasets.formats.tables.columns import (
     time_unit,
     warn_of_text,
 )
+from mocapbench.datasets.formats.tables.frame_times import FrameTimes
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recording
 
 __all__ = ["ParquetFormat"]
@@ -47,12 +47,12 @@ class ParquetFormat(Format):
         if times is None and frames is not None:
             _check_one_row_a_frame(path.name, frames)
         unit = "" if columns.time is None else time_unit(names[columns.time])
-        clock = Clock(path.name, times, unit, frames, None, names)
+        given = FrameTimes(path.name, times, unit, frames, None, names)
         warn_of_text(path.name, [names[column] for column in columns.left_out])
         named = [split_unit(names[column]) for column in columns.channels]
         return recording_of(
             path.name,
-            clock.seconds(len(values), rate),
+            given.seconds(len(values), rate),
             values[:, list(columns.channels)],
             [name for name, _ in named],
             [unit for _, unit in named],

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.datasets.formats.building import recording_of
-from mocapbench.datasets.formats.errors import FormatError
-from mocapbench.datasets.formats.tables.clock import Clock, lacking_rows
+from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.tables.columns import (
     TableColumns,
     is_index,
@@ -22,6 +21,7 @@ from mocapbench.datasets.formats.tables.columns import (
     warn_of_text,
 )
 from mocapbench.datasets.formats.tables.dialects import PLAIN
+from mocapbench.datasets.formats.tables.frame_times import FrameTimes, lacking_rows
 from mocapbench.datasets.formats.tables.heads import Head, read_head
 from mocapbench.datasets.formats.tables.kinds import are_numbers
 from mocapbench.datasets.formats.tables.plan import RowPlan, is_key, plan_long, plan_wide
@@ -65,7 +65,7 @@ class Sheet:
     def recording(self, rate: float | None) -> Recording:
         """Return the recording, at a rate in place of the times of the table if one is given."""
         file, n_frames = self.table.file, len(self.plan.rows)
-        clock = Clock(
+        given = FrameTimes(
             file,
             self.index(self.columns.time),
             "" if self.columns.time is None else time_unit(self.table.names[self.columns.time]),
@@ -78,7 +78,7 @@ class Sheet:
             values[lost] = np.nan
         units = [self._label(column)[1] for column in self.columns.channels]
         units *= len(self.plan.groups)
-        times = clock.seconds(n_frames, rate)
+        times = given.seconds(n_frames, rate)
         return recording_of(file, times, values, self._channels(), units)
 
     def lost_bodies(self) -> Iterator[tuple[NDArray[np.intp], ...]]:
@@ -119,6 +119,7 @@ class Sheet:
                 f"{self.table.file}: {n_rows} {are} missing, behind line {line}"
                 f"{more if len(places) > 2 else ' and once later' if len(places) == 2 else ''}, "
                 f"by the steps of {self._named_index()}{advice}",
+                FormatWarning,
                 stacklevel=2,
             )
 
@@ -263,13 +264,20 @@ def _plan_rows(
         _check_keys(table, keys)
     timed = columns.time is not None and (not keys or (np.diff(index[0]) > 0).all())
     if not index or timed or not _repeats(index[-1]):
-        return plan_wide(len(table.rows)), columns
+        apart = {k for k in keys if k in numbers and _is_constant(numbers[k])}
+        channels = tuple(column for column in columns.channels if column not in apart)
+        return plan_wide(len(table.rows)), columns._replace(channels=channels)
     rows = [table.row(line) for line in table.rows]
     cells = {column: [row[column] for row in rows] for column in keys}
     plan = plan_long(table.file, index[-1], cells, table.rows)
     told = {column for group in plan.groups for column in group}
     channels = tuple(column for column in columns.channels if column not in told)
     return plan, columns._replace(channels=channels)
+
+
+def _is_constant(values: Frames) -> bool:
+    """Return whether no two values differ, as where all rows are of one marker or person."""
+    return len(np.unique(values[~np.isnan(values)])) < 2
 
 
 def _repeats(index: Frames) -> bool:
@@ -296,5 +304,6 @@ def _compare_counts(file: str, head: Head, n_rows: int) -> None:
         warnings.warn(
             f"{file}: expected {head.n_rows:g} rows, as its head says, got {n_rows}: the file may "
             "be cut short; all that are there are read",
+            FormatWarning,
             stacklevel=2,
         )

@@ -10,6 +10,7 @@ import ezc3d
 import format_files
 import numpy as np
 import pytest
+import vendor_tables
 from c3d_files import text, write_bytes
 
 from mocapbench.benchmark import FORMATS, format_for
@@ -500,3 +501,53 @@ def test_a_disagreeing_c3d_is_filled_and_one_that_cannot_be_understood_ends_with
     given.write_bytes(data)
     assert cli("fill", given, "--model", "linear", "--out", tmp_path / "more") == 2
     assert "expected numbers of Intel, DEC or MIPS computers" in cli.printed
+
+
+def test_points_that_the_file_finds_unlikely_are_filled_too(cli, tmp_path, out):
+    path = tmp_path / "video.csv"
+    path.write_text(vendor_tables.deeplabcut().text)
+    named = ("--rate", 100, "--model", "linear", "--out")
+    assert cli("fill", path, *named, out, "--min-likelihood", 0.5) == 0
+    assert "filled 14 entries in 2 gaps" in cli.printed
+    before, after = (one.read_text().splitlines() for one in (path, out / "video.csv"))
+    changed = [k for k, pair in enumerate(zip(before, after, strict=True)) if pair[0] != pair[1]]
+    assert changed == [*range(13, 18), 23, 24]
+    assert cli("fill", path, *named, tmp_path / "two") == 0
+    assert "filled 10 entries in 1 gap" in cli.printed
+
+
+def test_likelihoods_that_are_not_there_are_refused(cli, walk, out):
+    assert cli("fill", walk, "--min-likelihood", 0.5, "--out", out) == 2
+    assert "expected a column of likelihoods for --min-likelihood, such as" in cli.printed
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("model", ["linear", "best"])
+def test_rows_that_are_missing_are_said_or_added_and_filled(cli, walk, out, tmp_path, model):
+    lines = walk.read_text().splitlines(keepends=True)
+    walk.write_text("".join(lines[:80] + lines[84:]))
+    named = ("--model", model, "--budget", 2, "--out")
+    assert cli("fill", walk, *named, out) == 0
+    said = (
+        "warning: walk.csv: 4 rows are missing, behind line 80, by the steps of 'time'; --insert-"
+    )
+    assert said in cli.printed
+    assert len((out / "walk.csv").read_text().splitlines()) == len(lines) - 4
+    assert cli("fill", walk, "--insert-missing", *named, tmp_path / "two") == 0
+    filled = (tmp_path / "two" / "walk.csv").read_text().splitlines()
+    times = [[float(line.split(",")[0]) for line in some[1:]] for some in (filled, lines)]
+    np.testing.assert_allclose(*times, atol=1.5e-4)
+    assert all(cell for line in filled for cell in line.split(","))
+    assert {*walk.read_text().splitlines()} - {*filled} == {*walk.read_text().splitlines()[51:61]}
+
+
+@pytest.mark.parametrize("name", vendor_tables.TABLES)
+def test_tables_of_every_program_are_filled(cli, tmp_path, out, name):
+    table = vendor_tables.TABLES[name]
+    path = tmp_path / table.name
+    path.write_text(table.text, newline="")
+    rate = () if table.rate else ("--rate", 100)
+    assert cli("fill", path, *rate, "--channels", ".*", "--model", "linear", "--out", out) == 0
+    filled = CSVFormat().read(out / table.name, 100.0)
+    assert filled.visible.all()
+    assert filled.channels == table.channels

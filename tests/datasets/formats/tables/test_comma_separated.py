@@ -186,6 +186,14 @@ def test_without_a_decimal_mark_semicolons_tell_of_commas(read, tmp_path):
         ("time,a\n0,00,1,50\n", "line 2: .* 2 cells, got 4 between commas; .* put semicolons"),
         ("# 100 Hz\ntime,hip\n0,1\n", "line 1: .*, got '# 100 Hz'; remove what stands above"),
         ("# a,b\ntime,hip\n0,1\n", "line 1: .*, got '# a,b'; remove what stands above"),
+        (
+            "Sampling rate:,100\nSubject,Ann\n\nTime,hip.x,hip.y\n0,1,2\n0.1,1,2\n",
+            "line 1: .* got 'Sampling rate:,100'; line 4 seems to name the columns, .* C3D or TRC",
+        ),
+        (
+            "1.5,2,3\n2.5,3,4\n",
+            "line 1: .* got '1.5,2,3'; export the table with its head, or",
+        ),
         ("sep=;\ntime;hip\n0;1\n", "line 1: .*, got 'sep=;'; remove what stands above"),
         ("time,hip\r0,1\n1,2\r", "line 1: .* end with LF or CR LF, got .* CR alone; save it"),
         ("time,hip\n0,1\n1,\0\n", "line 3: expected text in UTF-8, .* got a NUL byte; save"),

@@ -59,6 +59,22 @@ def test_an_index_of_pandas_is_no_channel(tmp_path):
     assert PARQUET.read(tmp_path / "walk.parquet").channels == ("hip",)
 
 
+def test_times_may_have_another_unit_and_frames_alone_take_a_rate(tmp_path):
+    path = tmp_path / "walk.parquet"
+    pd.DataFrame({"time_ms": [0.0, 10.0], "hip": [1.0, 2.0]}).to_parquet(path)
+    assert PARQUET.read(path).times.tolist() == [0.0, 0.01]
+    pd.DataFrame({"frame": [5, 6, 8], "hip": [1.0, 2.0, 3.0]}).to_parquet(path)
+    assert PARQUET.read(path, rate=10.0).times.tolist() == pytest.approx([0.0, 0.1, 0.3])
+
+
+@pytest.mark.filterwarnings("ignore::mocapbench.datasets.TextColumnsWarning")
+def test_a_row_for_each_marker_of_each_frame_is_refused(tmp_path):
+    path = tmp_path / "walk.parquet"
+    pd.DataFrame({"frame": [0, 0], "keypoint": ["a", "b"], "x": [1.0, 2.0]}).to_parquet(path)
+    with pytest.raises(FormatError, match="one row a frame, got several of frame 0; write one"):
+        PARQUET.read(path, rate=10.0)
+
+
 @pytest.mark.parametrize("keep", [0, 3, 100, 900])
 def test_a_file_that_is_cut_short(given, keep):
     given.write_bytes(given.read_bytes()[:keep])

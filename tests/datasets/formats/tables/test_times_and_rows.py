@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from vendor_tables import N, long_rows, motive, nexus, sleap
 
-from mocapbench.datasets import CSVFormat, FormatError, frame_rate
+from mocapbench.datasets import CSVFormat, FormatError, FormatWarning, frame_rate
 
 CSV = CSVFormat()
 INSERTING = CSV.with_missing_rows()
@@ -52,7 +52,9 @@ def test_a_column_of_times_is_known_by_its_name_and_unit(read, name, step, start
 @pytest.mark.parametrize(("step", "unit"), [(10.0, "milli"), (1e4, "micro"), (1e7, "nano")])
 @pytest.mark.parametrize("name", ["time", "timestamp"])
 def test_steps_tell_the_unit_of_times_with_a_word(read, name, step, unit):
-    with pytest.warns(UserWarning, match=rf"steps of times are 1.*0.*, .* for {unit}seconds; name"):
+    with pytest.warns(
+        FormatWarning, match=rf"steps of times are 1.*0.*, .* for {unit}seconds; name"
+    ):
         assert frame_rate(read(steps(name, step))) == pytest.approx(100.0)
 
 
@@ -72,7 +74,9 @@ def test_times_that_disagree_with_the_head_are_taken_with_a_word(tmp_path):
     path = tmp_path / "take.csv"
     text = motive().text.replace("Export Frame Rate,100.000000", "Export Frame Rate,25.000000")
     path.write_text(text, newline="")
-    with pytest.warns(UserWarning, match="expected 25 frames per second, .* got 100 by its times"):
+    with pytest.warns(
+        FormatWarning, match="expected 25 frames per second, .* got 100 by its times"
+    ):
         assert frame_rate(CSV.read(path)) == pytest.approx(100.0)
 
 
@@ -106,7 +110,9 @@ def test_rows_that_are_missing_are_said_by_frames_or_times(read, columns):
     rows = np.array([line.split(",") for line in without(ROWS, 4, 5, 9).splitlines()])
     text = "\n".join(",".join(row) for row in rows[:, columns]) + "\n"
     rate = 100.0 if columns == (0, 2, 3) else None
-    with pytest.warns(UserWarning, match=r"3 rows are missing, behind line 5 and once later, by "):
+    with pytest.warns(
+        FormatWarning, match=r"3 rows are missing, behind line 5 and once later, by "
+    ):
         walk = read(text, rate)
     assert np.flatnonzero(np.diff(walk.times) > 0.015).tolist() == [3, 6]
     with warnings.catch_warnings(action="ignore"):
@@ -132,7 +138,7 @@ def test_rows_that_are_added_look_like_those_that_are_there(read, tmp_path, end)
 def test_missing_rows_of_programs_are_added_too(tmp_path, make):
     table, path = make(), tmp_path / "take.csv"
     path.write_text(without(table.text, 20, 21), newline="")
-    with pytest.warns(UserWarning, match="2 rows are missing, behind line "):
+    with pytest.warns(FormatWarning, match="2 rows are missing, behind line "):
         assert len(CSV.load(path, None).times) == N - 2
     with warnings.catch_warnings(action="ignore"):  # the head has another count of rows
         walk = INSERTING.load(path, None)

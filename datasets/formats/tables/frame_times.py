@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.recording import Frames
 
-__all__ = ["Clock", "lacking_rows"]
+__all__ = ["FrameTimes", "lacking_rows"]
 
 _SECONDS = {"s": 1.0, "m": 1e-3, "μ": 1e-6, "n": 1e-9}
 _NAMES = {"m": "milliseconds", "μ": "microseconds", "n": "nanoseconds"}
@@ -26,7 +26,7 @@ _AGREEING = 0.01
 _HUGE = 1e15  # counts beyond are no whole numbers of a double
 
 
-class Clock(NamedTuple):
+class FrameTimes(NamedTuple):
     """What a table says about the times of its N frames.
 
     Parameters
@@ -69,7 +69,7 @@ class Clock(NamedTuple):
         counted = count if self.frames is None or not _counts(self.frames) else self.frames
         counted = counted - counted[:1].sum()
         if rate is not None:
-            return np.asarray(counted / _usual_step(counted) / rate)
+            return np.asarray(counted / _most_common_step(counted) / rate)
         if self.times is not None:
             return self._by_column(self.times)
         if self.rate is None:
@@ -87,6 +87,7 @@ class Clock(NamedTuple):
             warnings.warn(
                 f"{self.file}: steps of times are {step:g}, so they are taken for {_NAMES[unit]}; "
                 f"name the rate with --rate if they are not",
+                FormatWarning,
                 stacklevel=2,
             )
         seconds = times * _SECONDS[unit]
@@ -99,6 +100,7 @@ class Clock(NamedTuple):
             warnings.warn(
                 f"{self.file}: expected {self.rate:g} frames per second, as its head says, got "
                 f"{rate:.5g} by its times, which are taken; name the right one with --rate",
+                FormatWarning,
                 stacklevel=2,
             )
 
@@ -109,7 +111,7 @@ def lacking_rows(frames: Frames | None, times: Frames | None) -> NDArray[np.intp
     A count of frames says it, or else times, if their steps are about multiples of the usual one.
     """
     if frames is not None and _counts(frames):
-        return _count_lacking(np.diff(frames))
+        return _count_lacking(np.diff(frames) / _most_common_step(frames))
     steps = np.diff(times) if times is not None else np.empty(0)
     usual = np.median(steps) if len(steps) else 0.0
     if times is None or not np.isfinite(steps).all() or not usual > 0:
@@ -118,18 +120,24 @@ def lacking_rows(frames: Frames | None, times: Frames | None) -> NDArray[np.intp
     regular = np.abs(steps / usual - whole) <= _REGULAR
     if regular.mean() < _MOSTLY:
         return np.zeros(len(steps), dtype=np.intp)
-    return _count_lacking(np.where(steps / usual >= _JUMP, steps, usual))
+    return _count_lacking(np.where(steps / usual >= _JUMP, steps / usual, 1.0))
 
 
 def _count_lacking(steps: Frames) -> NDArray[np.intp]:
-    usual = _usual_step(np.concatenate([[0.0], np.cumsum(steps)]))
-    return np.minimum(np.round(steps / usual) - 1.0, _HUGE).clip(0).astype(np.intp)
+    """Return how many frames are missing within steps, in units of the usual one."""
+    return np.minimum(np.round(steps) - 1.0, _HUGE).clip(0).astype(np.intp)
 
 
 def _counts(frames: Frames) -> bool:
     """Return whether they are whole numbers that rise."""
     known = np.isfinite(frames).all() and (np.abs(frames) < _HUGE).all()
     return bool(known and (np.diff(frames) > 0).all() and (frames == np.round(frames)).all())
+
+
+def _most_common_step(frames: Frames) -> float:
+    """Return the step between most frames, of whole numbers that rise."""
+    steps, counts = np.unique(np.diff(frames), return_counts=True)
+    return float(steps[counts.argmax()]) if len(steps) else 1.0
 
 
 def _usual_step(values: Frames) -> float:
