@@ -17,7 +17,8 @@ __all__ = ["RowPlan", "is_key", "plan_long", "plan_wide"]
 
 _KEY = re.compile(
     r"""(?:(?:marker|keypoint|key[ _]point|landmark|joint|node|point|body[ _]?part|part|segment|
-    bone|track|person|individual|instance|animal|subject|name|label|object|hand|model)s?
+    bone|track|person|individual|instance|animal|subject|name|label|object|hand|model|
+    side|limb|sensor|imu)s?
     (?:[ _]?(?:id|idx|index|name|no|nr|num|number|label))?|id)""",
     re.VERBOSE | re.IGNORECASE,
 )

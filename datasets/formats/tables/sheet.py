@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from sys import intern
 
 import numpy as np
 from numpy.typing import NDArray
@@ -262,17 +263,27 @@ def _plan_rows(
     index = [numbers[column] for column in _index_columns(columns)]
     if not index:
         _check_keys(table, keys)
-    timed = columns.time is not None and (not keys or (np.diff(index[0]) > 0).all())
-    if not index or timed or not _repeats(index[-1]):
+    rising = columns.time is not None and (np.diff(index[0]) > 0).all()
+    # Times repeat also where they are rounded, but not if a column names markers.
+    rounded = columns.frame is None and not any(is_key(table.names[k]) for k in keys)
+    if not index or rising or rounded or not _repeats(index[-1]):
         apart = {k for k in keys if k in numbers and _is_constant(numbers[k])}
         channels = tuple(column for column in columns.channels if column not in apart)
         return plan_wide(len(table.rows)), columns._replace(channels=channels)
-    rows = [table.row(line) for line in table.rows]
-    cells = {column: [row[column] for row in rows] for column in keys}
-    plan = plan_long(table.file, index[-1], cells, table.rows)
+    plan = plan_long(table.file, index[-1], _cells_of(table, keys), table.rows)
     told = {column for group in plan.groups for column in group}
     channels = tuple(column for column in columns.channels if column not in told)
     return plan, columns._replace(channels=channels)
+
+
+def _cells_of(table: TextTable, columns: Sequence[int]) -> dict[int, list[str]]:
+    """Return the cells of some columns, of which equal ones take memory once."""
+    cells: dict[int, list[str]] = {column: [] for column in columns}
+    for line in table.rows:
+        row = table.row(line)
+        for column in columns:
+            cells[column].append(intern(row[column]))
+    return cells
 
 
 def _is_constant(values: Frames) -> bool:

@@ -231,6 +231,11 @@ def test_rows_that_nothing_tells_apart_are_refused(read, text, complaint):
         read(text, rate=100.0)
 
 
+@pytest.mark.filterwarnings("ignore:.*left out")
+def test_a_rate_takes_the_place_of_times_that_were_rounded(read):
+    assert len(read("time,hip,note\n0,1,a\n0,2,a\n0.1,3,b\n", rate=60.0).times) == 3
+
+
 # Likelihoods
 
 

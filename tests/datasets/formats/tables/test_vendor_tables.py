@@ -1,11 +1,13 @@
 """Tables as programs export them: read with names, units and rate, and written as they were."""
 
+import re
+
 import numpy as np
 import pytest
 from vendor_tables import GAP, RATE, TABLES, TIMES
 
 from mocapbench.benchmark.testing import check_format
-from mocapbench.datasets import CSVFormat, FormatError
+from mocapbench.datasets import CSVFormat, FormatError, FormatWarning
 from mocapbench.datasets.formats.tables.sheet import read_sheet
 
 CSV = CSVFormat()
@@ -109,3 +111,61 @@ def test_a_head_that_is_cut_short_is_told_from_a_table_of_nobody(name, tmp_path)
         path.write_text("".join(lines[:n_lines]), newline="")
         with pytest.raises(FormatError, match=rf"expected .* {HEADED[name]}.*, got .*; \w+ "):
             CSV.load(path, RATE)
+
+
+COMMAS = [name for name, table in TABLES.items() if table.name.endswith(".csv")]
+
+
+@pytest.mark.parametrize("name", COMMAS)
+def test_a_table_that_a_spreadsheet_of_another_country_saved_is_read_alike(name, tmp_path):
+    """With semicolons between columns, and commas within numbers."""
+    table = TABLES[name]
+    lines = table.text.replace('"Take, 1"', "Take 1").replace(",", ";").splitlines(keepends=True)
+    path = tmp_path / table.name
+    text = "".join(re.sub(r"(?<=\d)\.(?=\d)", ",", line) for line in lines)
+    path.write_text(text.replace("1,2", "1.2", 1) if "motive" in name else text, newline="")
+    recording = CSV.load(path, None if table.rate else RATE)
+    assert recording.channels == table.channels
+    assert recording.units == table.units
+    np.testing.assert_allclose(recording.values, table.values)
+    np.testing.assert_allclose(recording.times, TIMES)
+
+
+def test_trajectories_of_vicon_s_older_programs_are_read(tmp_path):
+    rows = ["TRAJECTORIES", "120,Hz", ",LFHD,,,*1,,", "Field #,X,Y,Z,X,Y,Z", "1,1.5,2,3,4,5,6"]
+    path = tmp_path / "old.csv"
+    path.write_text("\r\n".join([*rows, "2,1.5,2,3,,,", ""]), newline="")
+    walk = CSV.read(path)
+    assert walk.channels == ("LFHD.x", "LFHD.y", "LFHD.z", "*1.x", "*1.y", "*1.z")
+    assert (walk.times[1], {*walk.units}) == (pytest.approx(1 / 120), {"mm"})
+    assert walk.visible.sum() == 9
+
+
+def test_devices_alone_are_no_recording_of_motion(tmp_path):
+    rows = ["Devices", "1000", ",,Force plate", "Frame,Sub Frame,Fx", ",,N", "1,0,0.5", "1,1,0.5"]
+    path = tmp_path / "plate.csv"
+    path.write_text("\n".join(rows))
+    with pytest.raises(
+        FormatError, match=r"a block Trajectories .* Vicon Nexus, got 'Devices' on"
+    ):
+        CSV.read(path)
+
+
+@pytest.mark.parametrize("name", ["nexus, zeros", "qualisys", "qualisys 6D"])
+def test_a_marker_missing_as_zeros_is_filled_as_a_whole_or_not_at_all(name, tmp_path):
+    """A coordinate alone would leave the others at 0, as if they had been measured."""
+    path, out = written(TABLES[name], tmp_path), tmp_path / f"out-{TABLES[name].name}"
+    walk = CSV.load(path, None)
+    lost = ~walk.visible
+    first = np.zeros_like(lost)
+    first[:, np.flatnonzero(lost.any(axis=0))[0]] = True
+    CSV.save(out, np.full(lost.shape, NEW), lost & first, path)
+    assert out.read_bytes() == path.read_bytes()
+
+
+def test_a_count_of_rows_that_the_head_has_otherwise_is_said(tmp_path):
+    table = TABLES["qualisys"]
+    path = tmp_path / table.name
+    path.write_text(table.text.replace("NO_OF_FRAMES\t40", "NO_OF_FRAMES\t50"), newline="")
+    with pytest.warns(FormatWarning, match="expected 50 rows, as its head says, got 40: the file"):
+        assert len(CSV.read(path).times) == 40
