@@ -145,9 +145,7 @@ def test_devices_alone_are_no_recording_of_motion(tmp_path):
     rows = ["Devices", "1000", ",,Force plate", "Frame,Sub Frame,Fx", ",,N", "1,0,0.5", "1,1,0.5"]
     path = tmp_path / "plate.csv"
     path.write_text("\n".join(rows))
-    with pytest.raises(
-        FormatError, match=r"a block Trajectories .* Vicon Nexus, got 'Devices' on"
-    ):
+    with pytest.raises(FormatError, match=r"a block Trajectories .* Vicon Nexus, got 'Devices' on"):
         CSV.read(path)
 
 
