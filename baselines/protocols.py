@@ -397,6 +397,7 @@ class Clusterer(Model):
 
     provides: ClassVar[frozenset[str]] = frozenset({"clusters"})
 
+    n_styles: int
     labels_: NDArray[np.intp]
 
 

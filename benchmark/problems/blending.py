@@ -35,8 +35,7 @@ def blend_of(model: Blender, labels: NDArray[np.intp], n_channels: int) -> Array
     used = np.unique(labels).tolist()
     if len(used) < 2:
         return None
-    n_styles = model.get_params()["n_styles"]
-    alone = {style: np.tile(np.eye(n_styles)[style], (N_FRAMES, 1)) for style in used}
+    alone = {style: np.tile(np.eye(model.n_styles)[style], (N_FRAMES, 1)) for style in used}
     pure = {style: _blend_styles(model, weights, n_channels) for style, weights in alone.items()}
     first, second = max(
         combinations(used, 2), key=lambda pair: float(((pure[pair[0]] - pure[pair[1]]) ** 2).sum())

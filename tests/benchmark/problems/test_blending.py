@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines import Blender
+from mocapbench.baselines import Blender, Calibrated
 from mocapbench.benchmark import ClusterProblem, InvalidPredictionError
 from mocapbench.benchmark.problems.blending import N_FRAMES
 from mocapbench.datasets import GaitLibrary, Recording, hlm_features
@@ -56,6 +56,11 @@ def test_the_styles_that_differ_most_are_taken(problem):
     for labels, styles in (((1, 0, 2), [0, 2]), ((1, 1, 2), [1, 2])):
         solution = _solve(problem, Poses(labels=labels))
         assert solution.blend["blended"].tolist() == styles
+
+
+def test_styles_are_blended_by_a_model_in_its_calibration(problem):
+    own, wrapped = (_answer(problem, model) for model in (Poses(), Calibrated(Poses())))
+    np.testing.assert_array_equal(wrapped.blend["blend"], own.blend["blend"])
 
 
 def test_one_cluster_leaves_nothing_to_blend(problem):
