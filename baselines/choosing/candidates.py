@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, field
 from functools import partial
 from typing import Self, TypeVar
 
@@ -76,7 +75,6 @@ OF_MARKERS: Mapping[str, Callable[[], FrameImputer]] = {
 """Candidates besides, where channels are coordinates of markers."""
 
 
-@dataclass(frozen=True, eq=False)
 class FittedCandidates:
     """Fitted models by name, and why others are not among them.
 
@@ -87,8 +85,11 @@ class FittedCandidates:
         What those said, by name, that cannot learn from the recordings.
     """
 
-    models: Mapping[str, FrameImputer]
-    left_out: Mapping[str, str] = field(default_factory=dict)
+    def __init__(
+        self, models: Mapping[str, FrameImputer], left_out: Mapping[str, str] | None = None
+    ) -> None:
+        self.models = models
+        self.left_out = left_out or {}
 
     @classmethod
     def of(cls, recordings: Sequence[Recording]) -> Self:

@@ -66,8 +66,8 @@ class HeldOutErrors:
     def are_short(self, part: Part = EVERYTHING) -> bool:
         """Return whether copies of the longest gap of a part's kind had to be shortened."""
         hidden = ~self.given.visible
-        copies = [mask & part.kind.entries(hidden | mask) for mask in self.held_out]
-        return _longest(copies) < _longest([hidden & part.kind.entries(hidden)])
+        copies = [mask & part.kind(hidden | mask) for mask in self.held_out]
+        return _longest(copies) < _longest([hidden & part.kind(hidden)])
 
     def in_recording(self, part: Part = EVERYTHING) -> list[Products]:
         """Return the products of errors in the recording itself, for each set of held-out gaps."""

@@ -9,7 +9,6 @@ held out, and weighed, apart.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,20 +19,9 @@ from mocapbench.datasets import Mask, Recording
 __all__ = ["EVERYTHING", "GAPS", "Part", "parts_of"]
 
 
-@dataclass(frozen=True)
-class Kind:
-    """A kind of gaps.
-
-    Parameters
-    ----------
-    label : str
-        What names of parts of this kind end in.
-    entries : callable
-        From what is hidden (N, D) to the entries that such gaps may have, visible ones included.
-    """
-
-    label: str
-    entries: Callable[[Mask], Mask]
+Kind = Callable[[Mask], Mask]
+"""A kind of gaps: from what is hidden (N, D) to the entries that such gaps may have, visible ones
+included."""
 
 
 def _any(hidden: Mask) -> Mask:
@@ -55,39 +43,43 @@ def _not_whole_channels(hidden: Mask) -> Mask:
     return ~_whole_channels(hidden)
 
 
-_ANY = Kind("", _any)
-_FRAMES = Kind(", whole frames", _whole_frames)
-_LOST = Kind(", whole channels", _whole_channels)
-_NOT_LOST = Kind("", _not_whole_channels)
+_LABELS: Mapping[Kind, str] = {
+    _any: "",
+    _not_whole_channels: "",
+    _whole_frames: ", whole frames",
+    _whole_channels: ", whole channels",
+}
+"""What names of parts of each kind end in."""
 
 
-@dataclass(frozen=True, eq=False)
 class Part:
     """Channels, and gaps of all kinds or of one.
 
     Parameters
     ----------
     channels : ndarray of bool, shape (D,), or slice
-    kind : Kind
+    kind : callable
+        See `Kind`.
     """
 
-    channels: NDArray[np.bool_] | slice
-    kind: Kind = _ANY
+    def __init__(self, channels: NDArray[np.bool_] | slice, kind: Kind = _any) -> None:
+        self.channels = channels
+        self.kind = kind
 
     @property
     def widely(self) -> Part:
         """Gaps of all kinds in its channels, for a part of which nothing can be held out."""
-        return replace(self, kind=_ANY)
+        return Part(self.channels)
 
     def entries(self, hidden: Mask) -> Mask:
         """Return the entries (N, D) of the part, if ``hidden`` is what is hidden."""
         entries = np.zeros_like(hidden)
-        entries[:, self.channels] = self.kind.entries(hidden)[:, self.channels]
+        entries[:, self.channels] = self.kind(hidden)[:, self.channels]
         return entries
 
 
 EVERYTHING = Part(slice(None))
-GAPS = Part(slice(None), _NOT_LOST)
+GAPS = Part(slice(None), _not_whole_channels)
 """All but the channels that are hidden throughout."""
 
 
@@ -103,14 +95,14 @@ def parts_of(recording: Recording) -> Mapping[str, Part]:
     lost = _whole_channels(hidden)
     whole, gaps = _whole_frames(hidden), hidden & ~lost
     both = bool(lost.any() and gaps.any())
-    kinds = [_NOT_LOST if both else _ANY]
+    kinds: list[Kind] = [_not_whole_channels if both else _any]
     if whole.any() and (gaps & ~whole).any():
-        kinds.append(_FRAMES)
+        kinds.append(_whole_frames)
     if both:
-        kinds.append(_LOST)
+        kinds.append(_whole_channels)
     return {
-        f"{unit}{kind.label}": Part(units == unit, kind)
+        f"{unit}{_LABELS[kind]}": Part(units == unit, kind)
         for unit in np.unique(units)
         for kind in kinds
-        if kind != _LOST or lost[:, units == unit].any()
+        if kind is not _whole_channels or lost[:, units == unit].any()
     }

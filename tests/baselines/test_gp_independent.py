@@ -16,7 +16,6 @@ def _recordings(seed=0, n_outputs=2):
 
 
 def test_a_channel_is_predicted_as_if_it_were_alone():
-    """Only by how much variances are widened do channels tell of each other."""
     recordings = _recordings()
     together = GPIndependent(max_iter=30).fit(recordings).impute(recordings)[2]
     for d, channel in enumerate(recordings[0].channels):

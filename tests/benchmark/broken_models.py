@@ -256,7 +256,7 @@ class Unseeded(_Mean):
 
 
 class Pretends(_Mean):
-    """Does something else in trials than what it fills."""
+    """Has other means before calibration."""
 
     def impute_uncalibrated(self, recordings):
         return [Prediction.around(recording, -99.0) for recording in recordings]
