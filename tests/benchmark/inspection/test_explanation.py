@@ -262,6 +262,15 @@ def test_jobs_without_recordings_cannot_run_until_they_are_there(world):
     assert (found.step, new.part, new.before) == (Step.FIT, "recording waves:a", '"missing"')
 
 
+def test_a_job_that_never_ended_is_nothing_to_compare_with(world, monkeypatch):
+    world.run(fits=False)
+    for path in world.out.rglob("records/*/*"):
+        path.unlink()
+    _seed(world, monkeypatch)
+    found = world.explained()
+    assert (found.step, found.cause, found.changes) == (Step.FIT, "no record yet", ())
+
+
 def test_of_jobs_that_share_predictions_one_fits(world):
     def change(task):
         twin = dataclasses.replace(task.cases[0], name="twin", problem_name="gap")
