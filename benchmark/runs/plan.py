@@ -76,27 +76,33 @@ def _plan_case(request: Request, task: Task, case: Case, archive: Archive) -> It
     digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.recordings}
     metrics = tuple(sorted(set(request.metrics or METRICS.names())))
     scored_by = metric_contents(map(METRICS.get, metrics))
-    profile = task.profile(request.profile)
-    for entrant in (
-        _complete_parameters(each, case, profile) for each in chosen_entrants(request, task)
-    ):
-        for fold in range(chosen_folds(request, task)):
+    for address, entrant, seeds in _list_rows(request, task, case):
+        yield Job(
+            address=address,
+            seeds=seeds,
+            training_seeds=seeds.of_training(case.training),
+            model=entrant.model,
+            parameters=entrant.parameters,
+            metrics=metrics,
+            digests=digests,
+            missing=missing,
+            **_name_results(case, seeds, entrant, digests, scored_by),
+        )
+
+
+def _list_rows(
+    request: Request, task: Task, case: Case
+) -> Iterator[tuple[Address, Entrant, Seeds]]:
+    """Yield whose answer to which problem each job of a case is: by entrant, then by fold."""
+    profile, folds = task.profile(request.profile), range(chosen_folds(request, task))
+    for chosen in chosen_entrants(request, task):
+        entrant = _complete_parameters(chosen, case, profile)
+        # With the seeds of the calibrated one an uncalibrated entrant has the same means.
+        label = entrant.label.removesuffix(UNCALIBRATED)
+        for fold in folds:
             address = Address(task.name, task.version, case.name, fold, entrant.label)
-            # With the seeds of the calibrated one an uncalibrated entrant has the same means.
-            label = entrant.label.removesuffix(UNCALIBRATED)
             posed = address._replace(case=case.problem_name, label=label)
-            seeds = Seeds(request.seed, posed)
-            yield Job(
-                address=address,
-                seeds=seeds,
-                training_seeds=seeds.of_training(case.training),
-                model=entrant.model,
-                parameters=entrant.parameters,
-                metrics=metrics,
-                digests=digests,
-                missing=missing,
-                **_name_results(case, seeds, entrant, digests, scored_by),
-            )
+            yield address, entrant, Seeds(request.seed, posed)
 
 
 def _name_results(
