@@ -183,6 +183,7 @@ def _window_starts(tempo: _Tempo) -> Index:
 def _read_windows(tempo: _Tempo, starts: Index, rows: Index) -> Array:
     """Return ``rows`` (k,) of the windows from ``starts`` (A,), interpolated: (A, k, D)."""
     run, offsets = tempo
+    # On the line between the frames before and after each place.
     places = starts[:, None] + offsets[rows]
     before, after = np.floor(places).astype(np.intp), np.ceil(places).astype(np.intp)
     weight = (places - before)[:, :, None]

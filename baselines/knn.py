@@ -147,6 +147,7 @@ def _fill_entries(
     check_visible(pooled)
     _, variance = visible_moments(pooled)
     times = np.concatenate([other.times for other in pooled])
+    # Time is one more coordinate, that varies as the channel of median spread does.
     spread = times.std() or 1.0
     scale = np.median(np.sqrt(variance)) / spread
     imputer = KNNImputer(n_neighbors=n_neighbors)

@@ -244,6 +244,7 @@ def _start(frames: _Frames, explained: float) -> tuple[Array, float]:
     and eq. (8) for the noise, with the prior.
     """
     together = np.maximum(frames.seen.T @ frames.seen, 1.0)
+    # W = U_q (Λ_q − σ² I)^½, with σ² the mean of the eigenvalues that are left out.
     eigenvalues, axes = np.linalg.eigh(frames.values.T @ frames.values / together)
     eigenvalues, axes = np.maximum(eigenvalues[::-1], 0.0), axes[:, ::-1]
     q = _n_components(frames, eigenvalues, explained)

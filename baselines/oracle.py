@@ -225,6 +225,7 @@ class Oracle(Imputer, Synthesiser, Trended):
         entries, values = self._patterns[p]
         size = len(values)
         within = self._within[np.ix_(hidden, self._seen)] * (self._owner == p)
+        # The mean of its pattern: cov(y_h, ȳ_p) = K_g + δ (K_f + σ² I) / R_p.
         cross = self._parent[np.ix_(hidden, self._seen)] + within / size
         mean = cross @ self._weights
         variance = np.diag(self._parent)[hidden] + np.diag(self._within)[hidden]

@@ -133,12 +133,15 @@ class PCARegression(Imputer, Inductive):
 
     def _regression(self, complete: FrameByChannel, hidden: Mask) -> Array:
         """Return the map (D, D) from a frame with zeros at ``hidden`` channels to all channels."""
+        # The scatter of complete frames, in which hidden channels count little, and of the same
+        # frames with zeros there, as in the frames to fill.
         weights = np.where(hidden, self.hidden_weight, 1.0)
         scatter = weights[:, None] * (complete.T @ complete) * weights
         values, axes = _principal(scatter)
         visible_values, visible_axes = _principal(scatter * np.outer(~hidden, ~hidden))
         wanted = max(_holding(self.share, each) for each in (values, visible_values))
         n = min(wanted, len(complete) // _FRAMES_PER_COMPONENT, _rank(visible_values))
+        # Along the axes of frames with zeros, to those of complete frames, the weights undone.
         axes, visible_axes = axes[:, :n], visible_axes[:, :n]
         return np.asarray(visible_axes @ (visible_axes.T @ axes) @ axes.T / weights)
 

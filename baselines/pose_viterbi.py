@@ -156,6 +156,7 @@ class PoseViterbi(FrameImputer, Inductive):
             If a frame is hidden in part, or no frame is visible.
         """
         visible = visible_frames(recording)
+        # Hidden frames cost nothing, so that jumps alone decide there.
         emission = np.zeros((len(visible), len(self.frames_)))
         known = in_pose_units(recording).values[visible]
         emission[visible] = euclidean_distances(known, self.frames_, squared=True)

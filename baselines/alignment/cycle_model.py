@@ -167,6 +167,7 @@ def emission(sequences: Sequences, cycles: Ring, precisions: Array, labels: Arra
     :math:`\tfrac12\log(\lambda/2\pi) - \tfrac12\lambda\langle(x - z)^2\rangle` are first averaged
     over the styles of a sequence, so that the cost for each frame does not grow with their number.
     """
+    # −½ λ ⟨(x − z)²⟩ = −½ λ x² + x λ⟨z⟩ − ½ λ⟨z²⟩, whose factors of x are averaged over styles.
     constant = labels @ (0.5 * (np.log(precisions) - _LOG_2PI))
     linear = _average_styles(labels, precisions * cycles.mean)
     quadratic = _average_styles(labels, precisions * (cycles.mean**2 + cycles.variance))
@@ -185,6 +186,7 @@ def log_likelihood(state: State, sequences: Sequences) -> Array:
 
 def residuals(state: State, sequences: Sequences) -> Array:
     """Return the expected sum of squared residuals of the visible entries: (K, C, F)."""
+    # Σ v x² − 2 Σ γ v x ⟨z⟩ + Σ γ v ⟨z²⟩
     mean, variance = state.cycles.mean, state.cycles.variance
     explained = _over_states(state.paths.counts, mean**2 + variance)
     explained -= 2.0 * _over_states(state.paths.sums, mean)
@@ -194,6 +196,7 @@ def residuals(state: State, sequences: Sequences) -> Array:
 def roughness(cycles: Ring, reference: Array) -> float:
     """Return the expected sum of squared steps of all cycles minus a reference curve (M, F)."""
     deviation = cycles.mean - reference[:, None]
+    # ⟨(z_{m+1} − z_m)²⟩ has the two variances less twice the covariance.
     steps = np.roll(deviation, -1, axis=0) - deviation
     return float((steps**2).sum() + 2.0 * (cycles.variance - cycles.neighbour).sum())
 
@@ -209,6 +212,7 @@ def entry_moments(state: State) -> tuple[Array, Array]:
     These are the moments of the mixture over states and styles. HLM eq. (18) weights styles by
     their precision instead.
     """
+    # ⟨x⟩ and ⟨x²⟩ over states and styles; the variance is their difference.
     cycles, noise = state.cycles, 1.0 / state.precisions
     mean = _average_paths(state, cycles.mean)
     second = _average_paths(state, cycles.mean**2 + cycles.variance + noise)

@@ -100,6 +100,7 @@ def correct_means(mean: Array, sequences: Sequences) -> Array:
     sequences : Sequences
         The K sequences.
     """
+    # Errors of all visible entries, in units of each channel's own, and their correlations.
     errors = (sequences.values - mean) * sequences.visible
     seen = errors[sequences.frames]
     unit = np.sqrt((seen**2).mean(axis=0)) + np.finfo(float).tiny

@@ -65,6 +65,7 @@ def blend_cycles(state: State, weights: Array) -> Array:
         If the weights are not (N, C), are negative, or a row's sum is not 1.
     """
     _check_weights(weights, state.labels.shape[1])
+    # The mean number of states a frame.
     jumps = state.jumps.mean(axis=0)
     pace = jumps @ np.arange(1, len(jumps) + 1)
     position = pace * np.arange(len(weights))

@@ -87,6 +87,7 @@ def update_paths(state: State, sequences: Sequences, _: Hyperparameters) -> Stat
 def update_labels(state: State, sequences: Sequences, _: Hyperparameters) -> State:
     """Update Q(l), eq. (11), over visible entries."""
     score = np.log(state.weights) + log_likelihood(state, sequences)
+    # Less the maximum, which cancels, so that nothing overflows.
     score -= score.max(axis=1, keepdims=True)
     labels = np.exp(score)
     return replace(state, labels=labels / labels.sum(axis=1, keepdims=True))
@@ -139,6 +140,7 @@ def update_closeness(state: State, _: Sequences, hyper: Hyperparameters) -> Stat
 
 def update_precisions(state: State, sequences: Sequences, hyper: Hyperparameters) -> State:
     """Update λ_f^c, eq. (14), over visible entries; a style without any keeps its precision."""
+    # Entries over their expected squares, which are at least what the largest precision allows.
     counts = state.labels.T @ sequences.counts
     squares = np.einsum("kc,kcf->cf", state.labels, residuals(state, sequences))
     best = counts / np.maximum(squares, counts / hyper.max_precision + np.finfo(float).tiny)

@@ -54,6 +54,7 @@ def group_rows(
 def of_unit_variance(features: Array) -> Array:
     """Return features (K, F) about their means, of variance 1 along their first axis."""
     centred = features - features.mean(axis=0)
+    # The largest singular value is √K times the standard deviation along the first axis.
     first = np.linalg.norm(centred, ord=2) / np.sqrt(len(features))
     rounding = np.finfo(float).eps * np.abs(features).max(initial=0.0) * np.sqrt(features.size)
     return np.asarray(centred / first if first > rounding else np.zeros_like(centred))
@@ -87,8 +88,10 @@ def tempi(paths: Sequence[NDArray[np.intp]], n_states: int) -> Array:
         return tempo
     lengths = np.array([len(advances[k]) for k in known])
     means = np.array([advances[k].mean() for k in known])
+    # e(k): the squared relative errors of all recordings, pooled, over the advances of each.
     relative = np.concatenate([advances[k] for k in known]) / np.repeat(means, lengths) - 1.0
     errors = np.square(relative).sum() / max(len(relative) - len(known), 1) / lengths
+    # τ² is the variance of the logarithms less the mean error; logarithms are shrunk by it.
     logs = np.log(means) - np.log(means).mean()
     excess = max(logs.var() - errors.mean(), 0.0)
     tempo[known] = logs * np.sqrt(excess) / np.maximum(excess + errors, np.finfo(float).tiny)

@@ -36,6 +36,7 @@ def steadiness(recordings: Sequence[Array], marker: int) -> Array:
     counts, means, squares = (
         np.array(each) for each in zip(*_moments(recordings, marker), strict=True)
     )
+    # The pooled standard deviation, each recording about its own mean.
     freedom = np.maximum(counts - 1, 0).sum(axis=0)
     deviations = np.sqrt(squares.sum(axis=0) / np.maximum(freedom, 1))
     steady = 1.0 / np.maximum(deviations, _ROUNDING * means.max(initial=_TINY))
@@ -76,6 +77,7 @@ def find_rotations(before: Array, after: Array, weights: Array) -> Array:
     Crystallographica* A32.
     """
     left, _, right = np.linalg.svd(np.einsum("k,ki,tkj->tij", weights, before, after))
+    # The determinant is −1 where U Vᵀ would be a mirror image.
     right[:, 2] *= np.linalg.det(left @ right)[:, None]
     return np.asarray(left @ right)
 
@@ -89,6 +91,7 @@ def least_rotations(before: Array, after: Array, weights: Array) -> Array:
     ahead = np.einsum("k,tki->ti", weights * (before @ line), after)
     ahead /= np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), _TINY)
     cosine = ahead @ line
+    # Rodrigues: I + [v] + [v]² / (1 + cos θ) with v = line × ahead, whose length is sin θ.
     cross = _cross(np.cross(line, ahead))
     twice = cross @ cross / np.maximum(1.0 + cosine, _TINY)[:, None, None]
     return np.asarray(np.eye(3) + cross + twice)
@@ -109,6 +112,7 @@ def spans_a_body(shapes: Array, weights: Array) -> bool:
     shape = shapes.mean(axis=0)
     lengths, axes = _principal(shape, weights)
     distance = weights @ (_beside(shape, axes[0]) ** 2).sum(axis=1)
+    # Half the mean squared step is the variance of what scatters from frame to frame.
     steps = _beside(np.diff(shapes, axis=0), axes[0])
     scatter = 0.5 * float((weights @ (steps**2).sum(axis=2).T).sum()) / max(len(steps), 1)
     return bool(lengths[1] > _ROUNDING * lengths[0] and distance > _CLEARLY**2 * scatter)

@@ -27,11 +27,13 @@ def cheapest_path(
     """
     states = np.arange(emission.shape[1])
     cost, before = emission[0], []
+    # The least cost of reaching each state, and the state before it on that path.
     for here in emission[1:]:
         total = cost[:, None] + transition
         best = total.argmin(axis=0)
         cost = total[best, states] + here
         before.append(best)
+    # Back from the cheapest last state.
     path = [int(cost.argmin())]
     for best in reversed(before):
         path.append(int(best[path[-1]]))

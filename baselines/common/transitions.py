@@ -38,6 +38,7 @@ def least_squares_path(steps: Array, path: FrameByChannel) -> FrameByChannel:
     -------
     ndarray of shape (n, D)
     """
+    # The path of these steps from 0, shifted by what the ends ask for, linearly in between.
     free = np.concatenate([np.zeros((1, path.shape[1])), np.cumsum(steps, axis=0)])
     offsets = (path - free)[~np.isnan(path).any(axis=1)]
     return free + np.linspace(offsets[0], offsets[-1], len(path))

@@ -99,6 +99,7 @@ def _period(recording: Recording) -> float:
         return np.nan
     longest = _duration(recording)
     shortest = _FEWEST_FRAMES * frame_step(recording)
+    # A peak is as wide as one cycle more or less in the recording.
     grid = np.arange(1.0 / longest, 1.0 / shortest, 1.0 / (_GRID * longest))
     ratios = signal_to_noise(blocks, grid)
     inner = ratios[1:-1]
@@ -122,6 +123,7 @@ def _ratios(blocks: Sequence[tuple[Array, Array]], frequencies: Array) -> Array:
     ]
     signal, squares, freedom = np.sum(fits, axis=0)
     total = sum(values.size for _, values in blocks)
+    # Generalised cross-validation: RSS / n / (1 − df / n)².
     noise = squares / total / (1.0 - freedom / total) ** 2
     ratios = np.divide(signal / total, noise, out=np.zeros_like(noise), where=noise > 0)
     return np.asarray(ratios)
@@ -131,6 +133,7 @@ def _fit(basis: Array, values: Array) -> tuple[Array, Array, Array]:
     """Return sums of squares of signal and residuals, and degrees of freedom, by frequency."""
     transposed = basis.swapaxes(1, 2)
     gram = transposed @ basis
+    # One solve for (G + P)⁻¹ G, whose trace is the degrees of freedom, and the coefficients.
     right = np.concatenate([gram, transposed @ values], axis=2)
     solved = np.linalg.solve(gram + _PENALTY * np.diag(roughness(_HARMONICS)), right)
     hat, coefficients = np.split(solved, [gram.shape[2]], axis=2)

@@ -48,6 +48,7 @@ def shift_matrices(shifts: Array, n_harmonics: int) -> Array:
     matrices = np.zeros((len(shifts), 2 * n_harmonics + 1, 2 * n_harmonics + 1))
     cosine, sine = np.arange(1, n_harmonics + 1), np.arange(n_harmonics + 1, 2 * n_harmonics + 1)
     angles = 2.0 * np.pi * np.asarray(shifts)[:, None] * cosine
+    # cos(a + s) = cos a cos s − sin a sin s and sin(a + s) = sin a cos s + cos a sin s.
     matrices[:, 0, 0] = 1.0
     matrices[:, cosine, cosine] = matrices[:, sine, sine] = np.cos(angles)
     matrices[:, cosine, sine] = -np.sin(angles)
@@ -91,6 +92,7 @@ class CurveStatistics:
 
     def shift_curves(self, matrices: Array) -> Self:
         """Return those of each curve with its phases shifted by its own matrix (J, P, P)."""
+        # Σ v (R b)(R b)ᵀ = R gram Rᵀ and Σ v x R b = R cross.
         left = matrices[:, None]
         grams = left @ self.grams @ left.swapaxes(-1, -2)
         cross = (left @ self.cross[..., None])[..., 0]

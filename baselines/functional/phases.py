@@ -53,6 +53,7 @@ def prediction_errors(statistics: CurveStatistics, curve: Array) -> Array:
     matrices = shift_matrices(SHIFTS, (curve.shape[1] - 1) // 2)
     # bᵀ(u + s) c = bᵀ(u) Rᵀ c: the curve is shifted backwards instead of the recording forwards.
     moved = curve @ matrices
+    # squares − 2 cᵀ cross + cᵀ gram c, for every recording and shift.
     outer = (moved[..., :, None] * moved[..., None, :]).reshape(len(SHIFTS), -1)
     n_curves = len(statistics.squares)
     quadratic = statistics.grams.reshape(n_curves, -1) @ outer.T
@@ -113,6 +114,7 @@ def place_recording(recording: Recording, curve: Array, periods: Array) -> Array
     periods : ndarray of shape (K,)
         Lengths of the fitted recordings' cycles, in seconds.
     """
+    # Errors of every length of a cycle at every shift; the least is chosen.
     candidates = np.geomspace(periods.min() / _MARGIN, periods.max() * _MARGIN, _CANDIDATES)
     paths = np.outer(1.0 / candidates, elapsed_times(recording))
     n_harmonics = (curve.shape[1] - 1) // 2

@@ -103,6 +103,7 @@ def _register_recording(recording: Recording, reference: Recording, scale: Array
     def error(warp: Array) -> float:
         return _error(reference.values, at(warp), scale)
 
+    # The best point of a grid, from which a simplex search refines: the error has many minima.
     start = min((np.array(warp) for warp in product(SHIFTS, LOG_PACES)), key=error)
     if np.isinf(error(start)):  # too short, or nothing of the reference is visible
         return recording, TimeMap()

@@ -87,6 +87,7 @@ class HybridMonteCarlo:
                 change = energy - end[0] - 0.5 * float((momentum**2).sum())
         except np.linalg.LinAlgError:
             return state, here, False
+        # Metropolis: with probability exp(−change of energy), at most 1.
         if np.isfinite(change) and np.log(threshold) < change:
             return there, end, True
         return state, here, False
@@ -100,6 +101,7 @@ class HybridMonteCarlo:
         step: float,
     ) -> tuple[Array, Array, tuple[float, Array]]:
         """Return the state, the momentum and the potential after ``n_leaps`` leapfrog steps."""
+        # Half a step of the momentum, a step of the state, half a step of the momentum.
         for _ in range(self.n_leaps):
             momentum = momentum - 0.5 * step * here[1]
             state = state + step * momentum

@@ -89,5 +89,6 @@ class JointPosterior:
 
     def best_scales(self, inverse: Array) -> Array:
         """Return the best w (D,) given K_Y⁻¹, or its mean over samples: GPDM Algorithms 1 and 2."""
+        # Where the derivative of N ln w − ½ w² (yᵀ K⁻¹ y + 1 / κ²) is 0.
         quadratic = (self.y * (inverse @ self.y)).sum(axis=0)
         return np.asarray(np.sqrt(len(self.y) / (quadratic + 1.0 / KAPPA**2)))

@@ -158,6 +158,7 @@ class ConditionedProcess:
         gain = self.inverse @ cross
 
         def pull(d_mean: Array, d_covariance: Array) -> Array:
+            # Adjoints of the mean K_*ᵀ (K⁻¹ T) and of the explained part −K_*ᵀ K⁻¹ K_*.
             d_cross = self.dual @ d_mean.T - 2.0 * gain @ d_covariance
             left, right, _ = pull_prior(d_covariance)
             return left + right + pull_cross(d_cross)[1]
@@ -182,6 +183,7 @@ class ConditionedProcess:
         residual = (targets - mean)[rows]
         dual = np.zeros_like(mean)
         dual[rows] = inverse_visible @ residual
+        # ∂/∂S = ½ (p S⁻¹ − S⁻¹ Z Zᵀ S⁻¹), where hidden rows of S⁻¹ Z are 0.
         d_covariance = 0.5 * (mean.shape[1] * inverse - dual @ dual.T)
         value = 0.5 * (mean.shape[1] * log_determinant + float((dual[rows] * residual).sum()))
         return value, pull(-dual, d_covariance), dual
@@ -195,6 +197,7 @@ class ConditionedProcess:
         """
         mean, covariance, _ = self.moments(inputs)
         inverse, _ = invert(covariance[np.ix_(visible, visible)])
+        # S_·v S_vv⁻¹, the regression of all targets on the visible ones.
         gain = covariance[:, visible] @ inverse
         mean = mean + gain @ (targets - mean)[visible]
         variance = np.diagonal(covariance) - (gain * covariance[:, visible]).sum(axis=1)

@@ -81,6 +81,7 @@ def whitened_components(y: Array, n_latent: int) -> Array:
     """
     left, singular, _ = np.linalg.svd(y, full_matrices=False)
     left = orient_vectors(left)
+    # Components below rounding error, as in numpy.linalg.matrix_rank, are none.
     rank = int((singular > singular[0] * max(y.shape) * np.finfo(float).eps).sum())
     if rank < n_latent:
         warnings.warn(

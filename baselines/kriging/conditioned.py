@@ -92,6 +92,7 @@ class ConditionedFrames:
 
     def scales(self, residuals: Array, least: float) -> Array:
         """Return the scale of each channel (D,), at least ``least``."""
+        # (r − Hβ)ᵀ K⁻¹ (r − Hβ) / ν
         beside = self._without_trend(residuals)
         quadratic = (beside * cho_solve(self._factor, beside)).sum(axis=0)
         return np.asarray(np.maximum(quadratic / max(self._freedom, 1), least))
@@ -104,6 +105,7 @@ class ConditionedFrames:
         scales : ndarray of shape (D,)
             As `scales` returns them.
         """
+        # ½ log|K| + ½ log|HᵀK⁻¹H|, and the marginal likelihood −½ ν log σ̂² less it.
         half_log_determinant = np.log(np.diagonal(self._factor[0])).sum()
         half_log_determinant += 0.5 * np.linalg.slogdet(self._trend_precision)[1]
         return np.asarray(-0.5 * self._freedom * np.log(scales) - half_log_determinant)

@@ -155,12 +155,15 @@ class LeftOutGaps:
         .. math:: P\,\bigl[(B u) r^\top + B \operatorname{diag}(h) B\bigr]_{\text{blocks}}\, P
             - P\, B u\, A^\top .
         """
+        # u and h, which are derivatives of the score by r and by s.
         variances = self.variances[:, None]
         relative = self.errors / (self.scale * variances)
         by_variance = 0.5 * (1.0 / variances - relative * self.errors / variances).sum(axis=1)
+        # (B u) rᵀ + B diag(h) B in blocks.
         outward = self._within @ relative
         blocks = np.where(self._together, outward @ self.errors.T, 0.0)
         blocks += (self._within * by_variance) @ self._within
+        # P [·] P − P (B u) Aᵀ, and its symmetric part.
         precision = self._precision
         one_way = precision @ (blocks @ precision - outward @ self._dual.T)
         return np.asarray(0.5 * (one_way + one_way.T))
@@ -214,6 +217,7 @@ def learn_parameters(
 
     def objective(parameters: Array) -> tuple[float, Array]:
         left_out = LeftOutGaps(add_noise(pairs, parameters), values, stretch)
+        # ⟨∂score / ∂K, ∂K⟩ of each parameter; K has ε² on its diagonal.
         by = [np.vdot(left_out.sensitivity, each) for each in pairs.derivatives(parameters)]
         by.append(2.0 * np.exp(2.0 * parameters[-1]) * np.trace(left_out.sensitivity))
         deviations = parameters - typical

@@ -123,6 +123,7 @@ class MarkerGap:
     def _given(self) -> Index:
         """Recordings and frames that show the marker and the others; the first recording first."""
         shown = [self._find_complete_frames(number) for number in range(len(self.places))]
+        # All frames near the gap, and as many others of this recording as of all the rest.
         own, further = shown[0], np.concatenate([shown[0][:0], *shown[1:]])
         beside = np.abs(own[:, 1] - np.clip(own[:, 1], self.frames[0], self.frames[-1])) <= _BESIDE
         own = np.unique(np.concatenate([choose_evenly(own, _FURTHER), own[beside]]), axis=0)

@@ -153,6 +153,7 @@ class MirroredResiduals:
         poses = images_of(matched - np.where(self._middle, matched.mean(axis=0), 0.0), self.images)
         distances = euclidean_distances(poses, squared=True) / self.pose_scale
         alike = np.where(np.eye(n_images, dtype=bool), 1.0, self.symmetry)
+        # Between images the part that depends on pose alone, times ρ; within one drift, too.
         shared = np.kron(alike, np.full((n_frames, n_frames), self.pose_variance))
         within = np.kron(np.eye(n_images), _DRIFT * drift)
         return np.asarray(shared * np.exp(-0.5 * distances) + within)

@@ -50,6 +50,7 @@ def own_course(
         _fill_with(length, values[visible] - centre, visible, least) for length in _LENGTHSCALES
     ]
     means, variances, evidence = map(np.array, zip(*parts, strict=True))
+    # Of the mixture: the mean of the means, and the mean variance plus the variance of means.
     weights = np.exp(evidence - evidence.max(axis=0))
     weights = (weights / weights.sum(axis=0))[:, None]
     mean = (weights * means).sum(axis=0)

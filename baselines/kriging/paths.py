@@ -84,6 +84,8 @@ class MatchedPaths:
         predictions : ndarray of shape (K, N, D)
             What each path predicts.
         """
+        # The variance over K paths is K / (K − 1) times their mean square, and a further draw from
+        # those whose mean is only estimated has 1 + 1 / K times that.
         n_paths = len(predictions)
         mean = np.tensordot(self.weights, predictions, axes=1)
         spread = np.tensordot(self.weights, (predictions - mean) ** 2, axes=1)

@@ -179,6 +179,7 @@ def _stack_stretches(frames: Array) -> Array:
 def _first_components(rows: Array, n_states: int) -> Array:
     """Return the first principal components of ``rows`` (n, m), scaled to variance 1: (n, q)."""
     centred = rows - rows.mean(axis=0)
+    # Principal axes, the largest variance last; scores over their standard deviations are white.
     variances, axes = np.linalg.eigh(centred.T @ centred / len(rows))
     rank = int((variances > variances[-1] * max(rows.shape) * np.finfo(float).eps).sum())
     if rank < n_states:

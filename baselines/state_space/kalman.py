@@ -135,6 +135,7 @@ def _filter_means(
     x_t = (I − P_t J_t) A x_{t−1} + P_t h_t.
     """
     transition = parameters.dynamics.coefficients
+    # I − P J, the gains (I − P J) A and the shifts P h.
     kept = np.eye(parameters.n_states) - covariance @ information
     gains = (kept @ transition)[data.groups]
     shifts = (covariance[data.groups] @ score[..., None])[..., 0]

@@ -152,6 +152,7 @@ def draw_sequences(
 ) -> Array:
     """Return new sequences in standard units, noise included: (n, N, D)."""
     q, n_channels = parameters.n_states, len(parameters.noise)
+    # x_1 = m + P^½ u and x_{t+1} = A x_t + Q^½ w_t, then y_t = C x_t + d + noise.
     shocks = rng.standard_normal((n_frames, n_samples, q))
     noise = rng.standard_normal((n_samples, n_frames, n_channels)) * np.sqrt(parameters.noise)
     first = shocks[0] @ np.linalg.cholesky(parameters.start.covariance).T

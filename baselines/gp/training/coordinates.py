@@ -52,6 +52,7 @@ class Coordinates:
 
         A lengthscale lies between half the shortest step and ten times the span of ``times`` (N,).
         """
+        # The square root of a layer's Fisher information, relative to that of the most draws.
         most = max(draws.values())
         scales = [
             np.full(sum(leaf.size for leaf in layer.leaves), np.sqrt(draws[name] / most))
@@ -79,6 +80,7 @@ class Coordinates:
 
     def pull_back(self, coordinates: Array, gradient: Array) -> Array:
         """Return the gradient in the coordinates of a function, given that in `Parameters.flat`."""
+        # ∂ log β / ∂ root = 2 / root.
         roots = coordinates[len(self.scale) :]
         return np.concatenate(
             [self._of_layers(gradient) / self.scale, 2.0 * gradient[len(self.scale) :] / roots]
