@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.common.ascent import ascend
 from mocapbench.baselines.common.checks import check_given, check_recordings, check_spread
-from mocapbench.baselines.common.own_means import OwnMeans
+from mocapbench.baselines.common.scaling import OwnMeans
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array

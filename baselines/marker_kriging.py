@@ -38,7 +38,8 @@ class MarkerKriging(Imputer, Inductive):
 
     The coordinates of a marker are channels such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z`` that are
     not angles. Other channels, and markers where fewer than three others are visible, are filled
-    by their own course over time. Where the others lie on a line, the body does not turn about it.
+    by their own course over time. Where the others lie on a line, the body does not rotate about
+    it.
 
     Parameters
     ----------

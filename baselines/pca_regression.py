@@ -9,7 +9,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings, pool
-from mocapbench.baselines.common.own_means import OwnMeans
+from mocapbench.baselines.common.scaling import OwnMeans
 from mocapbench.baselines.common.validation import check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array, Mask

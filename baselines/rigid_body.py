@@ -45,8 +45,8 @@ class RigidBody(Imputer, Inductive):
 
     The coordinates of a marker are channels such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z`` that are
     not angles. Other channels, and markers beside which fewer than three are visible throughout a
-    gap, are filled as by ``pchip``. Markers on a line do not tell how the body turns about it: the
-    marker is then carried along without such a turn. There is no predictive distribution.
+    gap, are filled as by ``pchip``. Markers on a line do not tell how the body rotates about it:
+    the marker is then carried along without such a rotation. There is no predictive distribution.
 
     Parameters
     ----------

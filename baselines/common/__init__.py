@@ -2,10 +2,9 @@
 
 * `validation`, `checks`: checks of parameters and of recordings;
 * `recordings`: several of them together, their complete frames, and lines across their gaps;
-  `padded_sequences`: recordings of different lengths in one array;
-* `scaling`, `own_means`, `pose_units`: units in which channels count alike;
+* `scaling`, `pose_units`: units in which channels count alike; `padded_sequences`: arrays of all;
 * `markers`, `rigid`: channels that are coordinates of markers, and how these move together;
 * `ascent`: steps that raise an objective; `shortest_path`, `transitions`: paths of frames;
 * `prototypes`: recordings grouped by their cycles; `signs`: of eigenvectors;
-* `cholesky`, `lapack`: linear algebra.
+* `cholesky`: linear algebra.
 """

@@ -16,7 +16,7 @@ FEWEST = 3
 _ROUNDING = 1e-6
 """Relative changes of a distance below which it counts as constant."""
 _CLEARLY = 5.0
-"""How many times as far from a line as they scatter markers fix the turn about it."""
+"""How many times as far from a line as they scatter markers fix the rotation about it."""
 _TINY = 1e-300
 
 
@@ -69,7 +69,7 @@ def find_rotations(before: Array, after: Array, weights: Array) -> Array:
     Notes
     -----
     With the singular values :math:`\sum_k w_k b_k^\top a_k = U S V^\top` of row vectors, they are
-    :math:`U V^\top`, the last column of U turned if that would be a mirror image.
+    :math:`U V^\top`, the last column of U negated if that would be a mirror image.
 
     References
     ----------
@@ -85,7 +85,7 @@ def find_rotations(before: Array, after: Array, weights: Array) -> Array:
 def least_rotations(before: Array, after: Array, weights: Array) -> Array:
     """Return the least rotations that take the line along which markers lie to others: (T, 3, 3).
 
-    Nothing turns about the line itself. Parameters are those of `find_rotations`.
+    Nothing rotates about the line itself. Parameters are those of `find_rotations`.
     """
     line = _principal(before, weights)[1][0]
     ahead = np.einsum("k,tki->ti", weights * (before @ line), after)
@@ -98,10 +98,11 @@ def least_rotations(before: Array, after: Array, weights: Array) -> Array:
 
 
 def spans_a_body(shapes: Array, weights: Array) -> bool:
-    """Return whether markers fix every turn of a body that moves with them.
+    """Return whether markers fix every rotation of a body that moves with them.
 
-    Markers on a line leave the turn about it open. Those beside the line fix it if they lie clearly
-    farther from it than they scatter from frame to frame; a slow change of shape does no harm.
+    Markers on a line leave the rotation about it open. Those beside the line fix it if they lie
+    clearly farther from it than they scatter from frame to frame; a slow change of shape does no
+    harm.
 
     Parameters
     ----------

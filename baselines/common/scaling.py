@@ -1,4 +1,8 @@
-"""Outputs in a common unit: zero mean and unit variance over all visible entries."""
+"""Outputs in a common unit: of zero mean and unit variance, over all recordings or within each.
+
+People differ in their mean posture by more than they move in some channels. What one channel tells
+about another within a motion is therefore learnt from deviations from recordings' own means.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.checks import check_spread, check_visible
+from mocapbench.baselines.common.checks import check_known, check_spread, check_visible
 from mocapbench.baselines.common.recordings import visible_moments
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["Standardisation", "is_constant", "unit_scales"]
+__all__ = ["OwnMeans", "Standardisation", "is_constant", "unit_scales"]
 
 
 _CONSTANT = 1e-12
@@ -68,6 +72,51 @@ class Standardisation:
         return -float(self.counts @ np.log(self.scale))
 
 
+@dataclass(frozen=True, eq=False)
+class OwnMeans:
+    """The map z = (y − own mean) / scale of each channel of a recording.
+
+    A recording's own mean is that of the channel's visible entries in it; where there is none, it
+    is the mean over all recordings.
+
+    Parameters
+    ----------
+    mean : ndarray of shape (D,)
+        Mean of the visible entries of all recordings; NaN where there is none.
+    scale : ndarray of shape (D,)
+        Root mean squared deviation of visible entries from their recordings' own means; 1 for a
+        channel without deviations.
+    """
+
+    mean: Array
+    scale: Array
+
+    @classmethod
+    def of(cls, recordings: Sequence[Recording]) -> OwnMeans:
+        """Return the map for recordings with the same channels."""
+        mean, _ = visible_moments(recordings)
+        deviations = [recording.with_values(_deviate(recording)) for recording in recordings]
+        _, variance = visible_moments(deviations)
+        return cls(mean, np.where(is_constant(mean, variance), 1.0, np.sqrt(variance)))
+
+    def apply(self, recording: Recording) -> FrameByChannel:
+        """Return the deviations (N, D) of a recording in units of ``scale``; NaN where hidden."""
+        return _deviate(recording) / self.scale
+
+    def restore(self, recording: Recording, deviations: FrameByChannel) -> FrameByChannel:
+        """Return ``deviations`` (N, D), in units of ``scale``, as values of the recording.
+
+        Raises
+        ------
+        ValueError
+            If a channel is visible neither here nor in the recordings of the map.
+        """
+        own, _ = visible_moments([recording])
+        centre = np.where(np.isnan(own), self.mean, own)
+        check_known(recording, ~np.isnan(centre))
+        return centre + self.scale * deviations
+
+
 def unit_scales(recordings: Sequence[Recording]) -> Array:
     """Return the scale of each channel (D,): the mean spread of the channels of its unit.
 
@@ -84,3 +133,8 @@ def unit_scales(recordings: Sequence[Recording]) -> Array:
 def is_constant(mean: Array, variance: Array) -> NDArray[np.bool_]:
     """Return which channels (D,) vary by no more than rounding, or have no visible entry."""
     return np.asarray(~(np.sqrt(variance) > _CONSTANT * np.maximum(np.abs(mean), 1.0)))
+
+
+def _deviate(recording: Recording) -> FrameByChannel:
+    own, _ = visible_moments([recording])
+    return np.asarray(recording.values - own)

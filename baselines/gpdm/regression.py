@@ -17,8 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.cholesky import mirror
-from mocapbench.baselines.common.lapack import potrf, potri
+from mocapbench.baselines.common.cholesky import mirror, potrf, potri
 from mocapbench.baselines.gpdm.kernels import LatentKernel
 from mocapbench.basics.arrays import Array
 

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.baselines.common.own_means import OwnMeans
+from mocapbench.baselines.common.scaling import OwnMeans
 from mocapbench.datasets import Recording
 
 NAN = np.nan
