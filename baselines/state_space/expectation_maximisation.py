@@ -26,10 +26,10 @@ from mocapbench.baselines.common.signs import orient_vectors
 from mocapbench.baselines.state_space.kalman import Smoothed, smooth_states
 from mocapbench.baselines.state_space.linear_gaussian import (
     Priors,
-    Regression,
     StateSpaceParameters,
     Sums,
     entry_moments,
+    regress,
 )
 from mocapbench.basics.arrays import Array
 
@@ -85,9 +85,9 @@ def maximise_parameters(
     mean = np.where(data.frames[..., None], posterior.mean, 0.0)
     start, dynamics, emission = priors
     return StateSpaceParameters(
-        Regression.of(_start_sums(mean, second), start),
-        Regression.of(_dynamics_sums(posterior, second, data), dynamics),
-        Regression.of(_emission_sums(mean, second, data), emission),
+        *regress(_start_sums(mean, second), start),
+        *regress(_dynamics_sums(posterior, second, data), dynamics),
+        *regress(_emission_sums(mean, second, data), emission),
     )
 
 
@@ -104,8 +104,7 @@ def show_noise(parameters: StateSpaceParameters, data: Sequences) -> StateSpaceP
         sums = np.where(data.visible, squares, 0.0).sum(axis=(0, 1))
         counts = data.visible.sum(axis=(0, 1)) + _PRIOR_FRAMES
         noise = (sums + _PRIOR_FRAMES * _PRIOR_NOISE) / counts
-        emission = Regression(parameters.emission.coefficients, noise[:, None, None])
-        parameters = replace(parameters, emission=emission)
+        parameters = replace(parameters, emission_covariance=noise[:, None, None])
     return parameters
 
 

@@ -89,7 +89,7 @@ def smooth_states(parameters: StateSpaceParameters, data: Sequences) -> Smoothed
     filtered, own, predicted, log_likelihood = filter_states(parameters, data)
     gains = _smoother_gains(parameters, own, predicted, data)
     # x̂_t = G_t x̂_{t+1} + (x_t − G_t A x_t), from the last frame to the first.
-    shifts = filtered - _multiply_each(gains, filtered @ parameters.dynamics.coefficients.T)
+    shifts = filtered - _multiply_each(gains, filtered @ parameters.transition.T)
     mean = run_recurrence(_latest_first(gains), _latest_first(shifts))[::-1].swapaxes(0, 1)
     covariance = _smooth_covariances(gains, own[data.groups], predicted[data.groups, 1:])
     lagged = covariance[:, 1:] @ transpose_each(gains[:, :-1])
@@ -110,10 +110,10 @@ def _filter_covariances(
     parameters: StateSpaceParameters, information: Array
 ) -> tuple[Array, Array]:
     """Return the covariances (U, N, q, q) of the predicted and of the filtered states."""
-    transition, noise = parameters.dynamics.coefficients, parameters.dynamics.covariance
+    transition, noise = parameters.transition, parameters.transition_covariance
     predicted, covariance = np.empty_like(information), np.empty_like(information)
     identity = np.eye(parameters.n_states)
-    current = np.broadcast_to(parameters.start.covariance, information[:, 0].shape)
+    current = np.broadcast_to(parameters.first_covariance, information[:, 0].shape)
     for t in range(information.shape[1]):
         predicted[:, t] = current
         # (P⁻¹ + J)⁻¹ = (I + P J)⁻¹ P, which needs no inverse of P.
@@ -134,12 +134,12 @@ def _filter_means(
 
     x_t = (I − P_t J_t) A x_{t−1} + P_t h_t.
     """
-    transition = parameters.dynamics.coefficients
+    transition = parameters.transition
     # I − P J, the gains (I − P J) A and the shifts P h.
     kept = np.eye(parameters.n_states) - covariance @ information
     gains = (kept @ transition)[data.groups]
     shifts = (covariance[data.groups] @ score[..., None])[..., 0]
-    first = parameters.start.coefficients[:, 0]
+    first = parameters.first[:, 0]
     shifts[:, 0] += (kept[:, 0] @ first)[data.groups]
     mean = run_recurrence(gains.swapaxes(0, 1), shifts.swapaxes(0, 1)).swapaxes(0, 1)
     before = np.empty_like(mean)
@@ -152,7 +152,7 @@ def _smoother_gains(
     parameters: StateSpaceParameters, own: Array, predicted: Array, data: Sequences
 ) -> Array:
     """Return the gains (K, N, q, q), 0 where a sequence has no next frame."""
-    ahead = parameters.dynamics.coefficients @ own[:, :-1]
+    ahead = parameters.transition @ own[:, :-1]
     gains = np.zeros_like(own)
     gains[:, :-1] = transpose_each(np.linalg.solve(predicted[:, 1:], ahead))
     has_next = np.arange(gains.shape[1]) < data.lengths[:, None] - 1

@@ -22,11 +22,12 @@ __all__ = [
     "PRIORS",
     "Prior",
     "Priors",
-    "Regression",
     "StateSpaceParameters",
     "Sums",
     "draw_sequences",
     "entry_moments",
+    "log_prior_density",
+    "regress",
     "transpose_each",
 ]
 
@@ -46,73 +47,51 @@ PRIORS: Priors = ((10.0, 1.0, 1.0), (1.0, 1e-2, 1e-2), (10.0, 1.0, 1.0))
 
 
 @dataclass(frozen=True, eq=False)
-class Regression:
-    """Coefficients (…, p, m) and noise covariance (…, p, p)."""
-
-    coefficients: Array
-    covariance: Array
-
-    @classmethod
-    def of(cls, sums: Sums, prior: Prior) -> Regression:
-        """Return the regression with the highest posterior density."""
-        (yy, yx, xx, count), (frames, variance, ridge) = sums, prior
-        # B = S_yx (S_xx + λ I)⁻¹
-        gram = xx + ridge * np.eye(xx.shape[-1])
-        coefficients = transpose_each(np.linalg.solve(gram, transpose_each(yx)))
-        # The residuals, λ B Bᵀ included: S_yy − B S_xy where B minimises.
-        residual = yy - coefficients @ transpose_each(yx)
-        residual = 0.5 * (residual + transpose_each(residual))
-        # V = (residuals + ν s² I) / (n + ν)
-        scale = frames * variance * np.eye(residual.shape[-1])
-        return cls(coefficients, (residual + scale) / (count + frames))
-
-    def log_prior(self, prior: Prior) -> float:
-        """Return −½ (ν log |V| + tr V⁻¹(ν s² I + λ B Bᵀ)), summed over the leading axes."""
-        frames, variance, ridge = prior
-        _, log_determinant = np.linalg.slogdet(self.covariance)
-        squares = self.coefficients @ transpose_each(self.coefficients)
-        scale = frames * variance * np.eye(squares.shape[-1]) + ridge * squares
-        trace = np.trace(np.linalg.solve(self.covariance, scale), axis1=-2, axis2=-1)
-        return -0.5 * float(np.sum(frames * log_determinant + trace))
-
-
-@dataclass(frozen=True, eq=False)
 class StateSpaceParameters:
     """The parameters of the model of q states and D channels.
 
     Parameters
     ----------
-    start : Regression
-        Mean m as (q, 1) and covariance P (q, q) of the first state.
-    dynamics : Regression
-        Transition A (q, q) and covariance Q (q, q) of its noise.
-    emission : Regression
-        By channel the row of (C, d) as (D, 1, q + 1), and the variance r as (D, 1, 1).
+    first : ndarray of shape (q, 1)
+        Mean m of the first state.
+    first_covariance : ndarray of shape (q, q)
+        Covariance P of the first state.
+    transition : ndarray of shape (q, q)
+        A.
+    transition_covariance : ndarray of shape (q, q)
+        Covariance Q of the noise of a step.
+    emission : ndarray of shape (D, 1, q + 1)
+        The row of (C, d) of each channel.
+    emission_covariance : ndarray of shape (D, 1, 1)
+        The variance r of each channel's noise.
     """
 
-    start: Regression
-    dynamics: Regression
-    emission: Regression
+    first: Array
+    first_covariance: Array
+    transition: Array
+    transition_covariance: Array
+    emission: Array
+    emission_covariance: Array
 
     @property
     def n_states(self) -> int:
         """The number q of states."""
-        return len(self.dynamics.coefficients)
+        return len(self.transition)
 
     @property
     def loadings(self) -> Array:
         """C (D, q)."""
-        return self.emission.coefficients[:, 0, :-1]
+        return self.emission[:, 0, :-1]
 
     @property
     def offset(self) -> Array:
         """The offset d (D,) of the channels."""
-        return self.emission.coefficients[:, 0, -1]
+        return self.emission[:, 0, -1]
 
     @property
     def noise(self) -> Array:
         """The variance r (D,) of the channels' noise."""
-        return self.emission.covariance[:, 0, 0]
+        return self.emission_covariance[:, 0, 0]
 
     @cached_property
     def squares(self) -> Array:
@@ -124,10 +103,24 @@ class StateSpaceParameters:
         """Return the log-density of the priors up to a constant."""
         start, dynamics, emission = priors
         return (
-            self.start.log_prior(start)
-            + self.dynamics.log_prior(dynamics)
-            + self.emission.log_prior(emission)
+            log_prior_density(self.first, self.first_covariance, start)
+            + log_prior_density(self.transition, self.transition_covariance, dynamics)
+            + log_prior_density(self.emission, self.emission_covariance, emission)
         )
+
+
+def regress(sums: Sums, prior: Prior) -> tuple[Array, Array]:
+    """Return the most probable coefficients (…, p, m) and noise covariance (…, p, p)."""
+    (yy, yx, xx, count), (frames, variance, ridge) = sums, prior
+    # B = S_yx (S_xx + λ I)⁻¹
+    gram = xx + ridge * np.eye(xx.shape[-1])
+    coefficients = transpose_each(np.linalg.solve(gram, transpose_each(yx)))
+    # The residuals, λ B Bᵀ included: S_yy − B S_xy where B minimises.
+    residual = yy - coefficients @ transpose_each(yx)
+    residual = 0.5 * (residual + transpose_each(residual))
+    # V = (residuals + ν s² I) / (n + ν)
+    scale = frames * variance * np.eye(residual.shape[-1])
+    return coefficients, (residual + scale) / (count + frames)
 
 
 def entry_moments(
@@ -155,13 +148,23 @@ def draw_sequences(
     # x_1 = m + P^½ u and x_{t+1} = A x_t + Q^½ w_t, then y_t = C x_t + d + noise.
     shocks = rng.standard_normal((n_frames, n_samples, q))
     noise = rng.standard_normal((n_samples, n_frames, n_channels)) * np.sqrt(parameters.noise)
-    first = shocks[0] @ np.linalg.cholesky(parameters.start.covariance).T
-    states = [parameters.start.coefficients[:, 0] + first]
-    later = shocks[1:] @ np.linalg.cholesky(parameters.dynamics.covariance).T
+    first = shocks[0] @ np.linalg.cholesky(parameters.first_covariance).T
+    states = [parameters.first[:, 0] + first]
+    later = shocks[1:] @ np.linalg.cholesky(parameters.transition_covariance).T
     for shock in later:
-        states.append(states[-1] @ parameters.dynamics.coefficients.T + shock)
+        states.append(states[-1] @ parameters.transition.T + shock)
     paths = np.stack(states, axis=1)
     return np.asarray(paths @ parameters.loadings.T + parameters.offset + noise)
+
+
+def log_prior_density(coefficients: Array, covariance: Array, prior: Prior) -> float:
+    """Return −½ (ν log |V| + tr V⁻¹(ν s² I + λ B Bᵀ)), summed over the leading axes."""
+    frames, variance, ridge = prior
+    _, log_determinant = np.linalg.slogdet(covariance)
+    squares = coefficients @ transpose_each(coefficients)
+    scale = frames * variance * np.eye(squares.shape[-1]) + ridge * squares
+    trace = np.trace(np.linalg.solve(covariance, scale), axis1=-2, axis2=-1)
+    return -0.5 * float(np.sum(frames * log_determinant + trace))
 
 
 def transpose_each(matrices: NDArray[Any]) -> Array:

@@ -110,7 +110,7 @@ def test_a_channel_that_nobody_shows_is_refused():
 def test_recordings_of_one_frame_have_no_dynamics():
     frames = [Recording(f"{k}", [0.0], WALKS[0].values[[k]], CHANNELS, UNITS) for k in range(20)]
     model = LDS(2).fit(frames)
-    np.testing.assert_array_equal(model.parameters_.dynamics.coefficients, np.zeros((2, 2)))
+    np.testing.assert_array_equal(model.parameters_.transition, np.zeros((2, 2)))
     (prediction,) = model.impute([hidden(frames[0], 0, 2)])
     assert abs(prediction.mean[0, 2] - WALKS[0].values[0, 2]) < 0.005
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.common.padded_sequences import Sequences
-from mocapbench.baselines.state_space.linear_gaussian import Regression, StateSpaceParameters
+from mocapbench.baselines.state_space.linear_gaussian import StateSpaceParameters
 
 
 def spd(rng, size):
@@ -41,15 +41,15 @@ class Exact:
 
 def _states(parameters, n):
     """Return the prior mean (N q) and covariance (N q, N q) of all states."""
-    transition, q = parameters.dynamics.coefficients, parameters.n_states
+    transition, q = parameters.transition, parameters.n_states
     # x = W (u_1, w_1, …, w_{N-1}) with W[t, s] = A^(t - s) for s ≤ t.
     powers = [np.linalg.matrix_power(transition, t) for t in range(n)]
     blocks = [[powers[t - s] if s <= t else np.zeros((q, q)) for s in range(n)] for t in range(n)]
     spread = np.block(blocks)
-    noise = np.kron(np.eye(n), parameters.dynamics.covariance)
-    noise[:q, :q] = parameters.start.covariance
+    noise = np.kron(np.eye(n), parameters.transition_covariance)
+    noise[:q, :q] = parameters.first_covariance
     first = np.zeros(n * q)
-    first[:q] = parameters.start.coefficients[:, 0]
+    first[:q] = parameters.first[:, 0]
     return spread @ first, spread @ noise @ spread.T
 
 
@@ -59,12 +59,12 @@ class Problem:
     def __init__(self, seed, *, lengths=(4, 1, 6), n_states=3, n_channels=2, hidden=0.4):
         rng = np.random.default_rng(seed)
         self.parameters = StateSpaceParameters(
-            Regression(rng.normal(size=(n_states, 1)), spd(rng, n_states)),
-            Regression(0.6 * rng.normal(size=(n_states, n_states)), spd(rng, n_states)),
-            Regression(
-                rng.normal(size=(n_channels, 1, n_states + 1)),
-                rng.uniform(0.05, 1.0, size=(n_channels, 1, 1)),
-            ),
+            rng.normal(size=(n_states, 1)),
+            spd(rng, n_states),
+            0.6 * rng.normal(size=(n_states, n_states)),
+            spd(rng, n_states),
+            rng.normal(size=(n_channels, 1, n_states + 1)),
+            rng.uniform(0.05, 1.0, size=(n_channels, 1, 1)),
         )
         arrays = [rng.normal(size=(n, n_channels)).cumsum(axis=0) for n in lengths]
         self.arrays = [np.where(rng.random(a.shape) < hidden, np.nan, a) for a in arrays]

@@ -35,7 +35,7 @@ def test_all_else_is_kept_and_the_likelihood_rises(pose, seed):
     shown = show_noise(problem.parameters, problem.data)
     np.testing.assert_array_equal(shown.loadings, problem.parameters.loadings)
     np.testing.assert_array_equal(shown.offset, problem.parameters.offset)
-    assert shown.dynamics is problem.parameters.dynamics
+    assert shown.transition is problem.parameters.transition
     before, after = (
         smooth_states(each, problem.data).log_likelihood.sum()
         for each in (problem.parameters, shown)

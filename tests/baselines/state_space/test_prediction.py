@@ -37,7 +37,7 @@ def test_successive_draws_are_correlated_as_the_dynamics_say(pose):
     problem = pose(3, n_states=1, n_channels=1)
     draws = draw_sequences(problem.parameters, 20_000, 2, np.random.default_rng(0))[..., 0]
     parameters = problem.parameters
-    lagged = parameters.dynamics.coefficients[0, 0] * parameters.start.covariance[0, 0]
+    lagged = parameters.transition[0, 0] * parameters.first_covariance[0, 0]
     expected = lagged * parameters.loadings[0, 0] ** 2
     spread = np.sqrt(draws[:, 0].var() * draws[:, 1].var() / len(draws))
     assert abs(np.cov(draws.T)[0, 1] - expected) < 5 * spread

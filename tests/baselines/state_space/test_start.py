@@ -29,7 +29,7 @@ def test_there_can_be_more_states_than_channels():
     """One channel of an oscillation has two states: it recurs after rising and after falling."""
     data = Sequences.of([np.sin(ANGLE)[:, None]])
     parameters = start_parameters(initial_states(data, 2), data, PRIORS)
-    turn = np.abs(np.angle(np.linalg.eigvals(parameters.dynamics.coefficients)))
+    turn = np.abs(np.angle(np.linalg.eigvals(parameters.transition)))
     np.testing.assert_allclose(turn, 2 * np.pi / 12, rtol=0.05)
 
 
