@@ -33,9 +33,15 @@ from mocapbench.baselines.kriging.mirror_images import (
     images_of,
 )
 from mocapbench.baselines.kriging.own_course import own_course
-from mocapbench.baselines.kriging.paths import MatchedPaths
+from mocapbench.baselines.kriging.paths import (
+    doubt_about_path,
+    explained_share,
+    match_paths,
+    weigh_paths,
+)
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 from mocapbench.datasets.formats.angle_wrapping import mean_directions, wrapping_offsets
 
@@ -221,28 +227,30 @@ class PoseKriging(FrameImputer, Inductive):
         others = self._matchers_of_others(recording.name)
         if not others:
             return self._own_course(recording)
-        paths = MatchedPaths.of(recording, others)
-        if paths.explained < self.least_explained:
+        paths, errors = match_paths(recording, others)
+        total = recording.values[visible_frames(recording)].var(axis=0).sum()
+        if explained_share(errors, float(total)) < self.least_explained:
             return self._own_course(recording)
-        return self._correct_paths(recording, paths)
+        return self._correct_paths(recording, paths, weigh_paths(errors))
 
     def _correct_paths(
-        self, recording: Recording, paths: MatchedPaths
+        self, recording: Recording, paths: Array, weights: Array
     ) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the mean and variance (N, D) of the paths, corrected by their residuals."""
         visible, n_frames = visible_frames(recording), len(recording.times)
         seen = np.tile(visible, len(self.symmetries_))
-        unexplained = recording.values - paths.paths
+        unexplained = recording.values - paths
         residuals = np.array([images_of(each, self.symmetries_)[seen] for each in unexplained])
-        corrected, variance = paths.paths.copy(), np.empty(recording.values.shape)
-        for channels, given in self._residuals().condition(paths.mean, visible):
+        corrected, variance = paths.copy(), np.empty(recording.values.shape)
+        matched = np.tensordot(weights, paths, axes=1)
+        for channels, given in self._residuals().condition(matched, visible):
             those = residuals[:, :, channels]
             corrected[:, :, channels] += [given.mean(each)[:n_frames] for each in those]
-            scales = given.scales(np.tensordot(paths.weights, those, axes=1), self._least(visible))
+            scales = given.scales(np.tensordot(weights, those, axes=1), self._least(visible))
             variance[:, channels] = np.outer(given.variance[:n_frames], scales)
             variance[:, channels] *= given.doubt_of_scale
-        mean = np.tensordot(paths.weights, corrected, axes=1)
-        return mean, variance + paths.doubt(corrected)
+        mean = np.tensordot(weights, corrected, axes=1)
+        return mean, variance + doubt_about_path(corrected, weights)
 
     def _residuals(self) -> MirroredResiduals:
         return MirroredResiduals(

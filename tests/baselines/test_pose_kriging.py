@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from samples import gap
 
 from mocapbench.baselines.kriging.own_course import own_course
-from mocapbench.baselines.kriging.paths import MatchedPaths
+from mocapbench.baselines.kriging.paths import match_paths, weigh_paths
 from mocapbench.baselines.pose_kriging import PoseKriging
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.datasets import Recording
@@ -160,7 +160,8 @@ def conditional_variance(model, recording, matched):
 def test_the_doubt_about_the_path_only_adds_to_the_variance(style, start, first):
     model = PoseKriging(least_explained=0.0).fit(TRAINING)
     recording = gap(walk("new", start, 40, style=style), first, first + 12)
-    matched = MatchedPaths.of(recording, model.matchers_).mean
+    paths, errors = match_paths(recording, model.matchers_)
+    matched = np.tensordot(weigh_paths(errors), paths, axes=1)
     (prediction,) = model.impute([recording])
     hidden = ~recording.visible
     conditional = conditional_variance(model, recording, matched)[hidden]
@@ -170,11 +171,13 @@ def test_the_doubt_about_the_path_only_adds_to_the_variance(style, start, first)
 def test_the_mean_is_the_weighted_mean_of_what_each_path_predicts():
     model = PoseKriging().fit(TRAINING)
     recording = gap(walk("new", 2, 30, style=0.2), 10, 16)
-    paths, visible = MatchedPaths.of(recording, model.matchers_), recording.visible[:, 0]
-    ((_, process),) = model._residuals().condition(paths.mean, visible)
-    each = [path + process.mean((recording.values - path)[visible]) for path in paths.paths]
+    paths, errors = match_paths(recording, model.matchers_)
+    weights, visible = weigh_paths(errors), recording.visible[:, 0]
+    matched = np.tensordot(weights, paths, axes=1)
+    ((_, process),) = model._residuals().condition(matched, visible)
+    each = [path + process.mean((recording.values - path)[visible]) for path in paths]
     (prediction,) = model.impute([recording])
-    expected = np.average(each, axis=0, weights=paths.weights)
+    expected = np.average(each, axis=0, weights=weights)
     np.testing.assert_allclose(prediction.mean[~visible], expected[~visible], atol=1e-9)
 
 
