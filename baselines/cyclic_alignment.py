@@ -17,7 +17,7 @@ from mocapbench.baselines.alignment.cycle_model import Hyperparameters, State, e
 from mocapbench.baselines.alignment.inference import correct_means, refine_state
 from mocapbench.baselines.alignment.new_motion import blend_cycles, draw_sequences
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.restarts import restart_em
+from mocapbench.baselines.alignment.restarts import run_from_random_start
 from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.checks import check_given
 from mocapbench.baselines.common.validation import (
@@ -262,14 +262,12 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         )
 
     def _learn(self, rng: np.random.Generator) -> Ascent[State]:
-        self.runs_ = restart_em(
-            self.sequences_,
-            self.cycle_length_,
-            self.hyper_,
-            n_restarts=self.n_restarts,
-            max_iter=self.max_iter,
-            rng=rng,
-        )
+        self.runs_ = [
+            run_from_random_start(
+                self.sequences_, self.cycle_length_, self.hyper_, self.max_iter, rng
+            )
+            for _ in range(self.n_restarts)
+        ]
         self.restart_bounds_ = np.array([run.objectives[-1] for run in self.runs_])
         return self.runs_[int(self.restart_bounds_.argmax())]
 

@@ -30,7 +30,7 @@ from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.basics.arrays import Array
 
-__all__ = ["copy_style", "random_cycle", "random_start", "restart_em", "run_em"]
+__all__ = ["copy_style", "random_cycle", "random_start", "run_em", "run_from_random_start"]
 
 # Cycles first: while all styles have the same cycle, an update makes all labels equal.
 _E_STEP: tuple[Update, ...] = (update_cycles, update_labels, update_paths)
@@ -45,20 +45,15 @@ _COMMON_ITER = 5  # iterations with one style, which align the sequences well en
 _CLOSENESS: dict[bool, tuple[Update, ...]] = {False: (), True: (update_closeness,)}
 
 
-def restart_em(
+def run_from_random_start(
     sequences: Sequences,
     n_states: int,
     hyper: Hyperparameters,
-    *,
-    n_restarts: int,
     max_iter: int,
     rng: np.random.Generator,
-) -> list[Ascent[State]]:
-    """Return runs of EM from random starts."""
-    return [
-        run_em(random_start(sequences, n_states, hyper, rng), sequences, hyper, max_iter)
-        for _ in range(n_restarts)
-    ]
+) -> Ascent[State]:
+    """Run EM from a random start."""
+    return run_em(random_start(sequences, n_states, hyper, rng), sequences, hyper, max_iter)
 
 
 def run_em(

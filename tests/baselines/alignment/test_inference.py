@@ -3,7 +3,7 @@ import numpy as np
 from mocapbench.baselines.alignment.cycle_model import Hyperparameters, entry_moments
 from mocapbench.baselines.alignment.inference import infer_path, refine_state
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.restarts import restart_em
+from mocapbench.baselines.alignment.restarts import run_from_random_start
 from mocapbench.baselines.common.padded_sequences import Sequences
 
 HYPER = Hyperparameters(
@@ -22,7 +22,7 @@ def _fitted():
     rng = np.random.default_rng(0)
     waves = [np.sin(np.arange(n)[:, None] + np.arange(3)) for n in (20, 25, 30)]
     sequences = Sequences.of([wave + 0.1 * rng.normal(size=wave.shape) for wave in waves])
-    runs = restart_em(sequences, 12, HYPER, n_restarts=3, max_iter=10, rng=rng)
+    runs = [run_from_random_start(sequences, 12, HYPER, 10, rng) for _ in range(3)]
     return sequences, max(runs, key=lambda run: run.objectives[-1]).state
 
 
