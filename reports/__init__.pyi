@@ -1,22 +1,10 @@
 from .bundle.bundle import Bundle
-from .bundle.error_parts import ErrorParts, RestPose
+from .bundle.error_parts import ErrorParts
 from .bundle.layout import CaseLayout, TaskLayout
 from .bundle.metric_info import MetricInfo
 from .bundle.model_info import ModelInfo
 from .bundle.origin import Origin
-from .bundle.pictures import (
-    Band,
-    Curve,
-    HeatMap,
-    HeatMaps,
-    Illustration,
-    Motion,
-    Motions,
-    Panel,
-    Path3D,
-    Picture,
-    Space,
-)
+from .bundle.pictures import Axes, Curve, HeatMaps, Illustration, Motions, Picture, Space
 from .bundle.regression_check import RegressionCheck
 from .bundle.task_page import Figure, RowNotes, TaskPage
 from .filling.curves import FilledCurve
@@ -36,7 +24,7 @@ from .slopes.values import (
 from .spreadsheet import csv_text
 
 __all__ = [
-    "Band",
+    "Axes",
     "Bundle",
     "CaseLayout",
     "ChangeVerdict",
@@ -49,19 +37,14 @@ __all__ = [
     "Figure",
     "FilledCurve",
     "FilledPage",
-    "HeatMap",
     "HeatMaps",
     "Illustration",
     "MetricInfo",
     "ModelInfo",
-    "Motion",
     "Motions",
     "Origin",
-    "Panel",
-    "Path3D",
     "Picture",
     "RegressionCheck",
-    "RestPose",
     "RowNotes",
     "RunChanges",
     "ScoreChange",

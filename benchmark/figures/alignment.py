@@ -12,7 +12,7 @@ from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number
 from mocapbench.benchmark.problems.cluster import ClusterProblem, Clusters
-from mocapbench.reports import Curve, Illustration, Panel
+from mocapbench.reports import Axes, Curve, Illustration
 
 __all__ = ["draw_alignments"]
 
@@ -42,8 +42,8 @@ def draw_alignments(solved: Solved[ClusterProblem, Clusters], /) -> Sequence[Ill
 
 def _panel(
     title: str, x_label: str, x: Sequence[Array], y: Sequence[Array], styles: Sequence[str]
-) -> Panel:
-    return Panel(title, x_label, "2nd component", tuple(map(Curve, x, y, styles)))
+) -> Axes:
+    return Axes(title, x_label, "2nd component", tuple(map(Curve, x, y, styles)))
 
 
 def _second_component(recordings: Sequence[Array]) -> list[Array]:

@@ -12,7 +12,7 @@ from mocapbench.benchmark.figures.stick_figures import strip
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.cluster import ClusterProblem, Clusters
 from mocapbench.datasets import Recording
-from mocapbench.reports import Curve, Illustration, Panel
+from mocapbench.reports import Axes, Curve, Illustration
 
 __all__ = ["draw_blends"]
 
@@ -65,10 +65,10 @@ def _picture(
     return Illustration(solved.task, f"Blend by {label}", caption, panels)
 
 
-def _panel(motion: Recording, channel: str, values: dict[str, np.ndarray]) -> Panel:
+def _panel(motion: Recording, channel: str, values: dict[str, np.ndarray]) -> Axes:
     column = motion.channels.index(channel)
     curves = (Curve(motion.times, array[:, column], group) for group, array in values.items())
-    return Panel(channel, "time, s", motion.units[column], tuple(curves))
+    return Axes(channel, "time, s", motion.units[column], tuple(curves))
 
 
 def _name(problem: ClusterProblem, solution: Clusters, cluster: int) -> str:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.reports import HeatMap, HeatMaps
+from mocapbench.reports import HeatMaps
 
 __all__ = ["draw_coregionalisation"]
 
@@ -62,11 +62,11 @@ def _picture(
             "variances, so that the components of a layer add up to its matrix of correlations."
         ),
         labels=tuple(labels),
-        maps=tuple(
-            HeatMap(f"{layer}, component {q}", matrix)
+        maps={
+            f"{layer}, component {q}": matrix
             for layer, matrices in layers.items()
             for q, matrix in enumerate(matrices, start=1)
-        ),
+        },
         limit=1.0,
         columns=max(map(len, layers.values())),
     )

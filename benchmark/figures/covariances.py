@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.recover import LAYERS, Covariances, RecoverProblem
-from mocapbench.reports import HeatMap, HeatMaps
+from mocapbench.reports import HeatMaps
 
 __all__ = ["draw_covariances"]
 
@@ -49,10 +49,10 @@ def _picture(solved: Solved[RecoverProblem, Covariances], layer: str) -> HeatMap
             "time runs from left to right and from top to bottom."
         ),
         labels=tuple(np.repeat(channels, n_points).tolist()),
-        maps=tuple(
-            HeatMap(label, _thin_covariance(covariance, len(channels)))
+        maps={
+            label: _thin_covariance(covariance, len(channels))
             for label, covariance in {"truth": problem.truth[layer], **estimates}.items()
-        ),
+        },
         limit=float(np.abs(problem.truth[layer]).max()),
         columns=3,
     )

@@ -8,7 +8,7 @@ import numpy as np
 
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
-from mocapbench.reports import Curve, Illustration, Panel
+from mocapbench.reports import Axes, Curve, Illustration
 
 __all__ = ["draw_filled_channels"]
 
@@ -41,7 +41,7 @@ def draw_filled_channels(
             Curve(recording.times, values[:, column], label)
             for label, values in {"truth": truth, **filled}.items()
         )
-        panels.append(Panel(channel, "time, s", recording.units[column], curves))
+        panels.append(Axes(channel, "time, s", recording.units[column], curves))
     return (Illustration(solved.task, "Filled channels", caption, tuple(panels)),)
 
 

@@ -9,7 +9,7 @@ from numpy.linalg import norm
 
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
-from mocapbench.reports import Curve, Illustration, Panel
+from mocapbench.reports import Axes, Curve, Illustration
 
 __all__ = ["draw_gap_error"]
 
@@ -42,5 +42,5 @@ def draw_gap_error(
         f"{recording.name}: the Euclidean norm of the error over all channels at every hidden "
         f"frame, of the {len(best)} entrants with the least mean in this window."
     )
-    panel = Panel("all channels", "frame", "error per frame", curves)
+    panel = Axes("all channels", "frame", "error per frame", curves)
     return (Illustration(solved.task, "Error along the gap", caption, (panel,)),)

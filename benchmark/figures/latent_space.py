@@ -9,13 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.figures.stick_figures import strip
 from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number, with_prefix
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.benchmark.problems.internals import Internals
 from mocapbench.datasets import Recording
-from mocapbench.reports import Illustration, Path3D, Picture, Space
+from mocapbench.reports import Illustration, Picture, Space
 
 __all__ = ["draw_latent_spaces"]
 
@@ -67,12 +68,12 @@ def _space(task: str, label: str, space: Arrays, walks: Arrays | None) -> Space:
     )
 
 
-def _paths(space: Arrays, walks: Arrays | None) -> Iterator[Path3D]:
-    yield from (Path3D(points, TRAINING) for points in arrays_by_number("latent-path", space))
+def _paths(space: Arrays, walks: Arrays | None) -> Iterator[tuple[str, Array]]:
+    yield from ((TRAINING, points) for points in arrays_by_number("latent-path", space))
     if walks is not None:
         samples = arrays_by_number("latent-sample", walks)
-        yield from (Path3D(points, SAMPLE) for points in samples)
-        yield Path3D(walks["latent-mean"], MEAN)
+        yield from ((SAMPLE, points) for points in samples)
+        yield MEAN, walks["latent-mean"]
 
 
 def _walks(

@@ -11,7 +11,7 @@ from mocapbench.basics.gaps import run_bounds
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.datasets import FrameByChannel, Mask, Recording
-from mocapbench.reports import Curve, Illustration, Panel
+from mocapbench.reports import Axes, Curve, Illustration
 
 __all__ = ["draw_longest_gaps"]
 
@@ -53,12 +53,12 @@ def draw_longest_gaps(
 
 def _panel(
     recording: Recording, column: int, hidden: Mask, shown: Mapping[str, FrameByChannel]
-) -> Panel:
+) -> Axes:
     rows = _around(_longest_run(hidden[:, column]), len(hidden))
     curves = tuple(
         Curve(recording.times[rows], values[rows, column], label) for label, values in shown.items()
     )
-    return Panel(recording.channels[column], "time, s", recording.units[column], curves)
+    return Axes(recording.channels[column], "time, s", recording.units[column], curves)
 
 
 def _longest_run(hidden: NDArray[np.bool_]) -> tuple[int, int]:

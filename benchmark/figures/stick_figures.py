@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mocapbench.benchmark.problems.body import Body
 from mocapbench.datasets import Recording, Skeleton
-from mocapbench.reports import Curve, Panel
+from mocapbench.reports import Axes, Curve
 
 __all__ = ["strip"]
 
@@ -18,7 +18,7 @@ STRIDE = 90.0
 """Centimetres from one stick figure to the next."""
 
 
-def strip(motion: Recording, body: Body, groups: Sequence[str], title: str = "") -> Panel:
+def strip(motion: Recording, body: Body, groups: Sequence[str], title: str = "") -> Axes:
     """Return stick figures at even times, seen from the side and set apart.
 
     Parameters
@@ -37,7 +37,7 @@ def strip(motion: Recording, body: Body, groups: Sequence[str], title: str = "")
     places = places - places[:, :1] * [0.0, 0.0, 1.0]
     places[..., 1] -= places[..., 1].min(axis=1, keepdims=True)
     places[..., 2] += STRIDE * np.arange(n_figures)[:, None]
-    return Panel(
+    return Axes(
         f"{title}every {np.diff(motion.times[frames]).mean():.2g} s",
         "cm, set apart",
         "height, cm",

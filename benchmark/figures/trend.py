@@ -14,7 +14,7 @@ import numpy as np
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.internals import Trend
 from mocapbench.datasets import Recording
-from mocapbench.reports import Band, Curve, Illustration, Panel
+from mocapbench.reports import Axes, Curve, Illustration
 
 __all__ = ["draw_trends"]
 
@@ -52,10 +52,10 @@ def draw_trends(solved: Solved[Any, Any], /, channels: tuple[str, ...]) -> Seque
     return (Illustration(solved.task, "Underlying trend", caption, panels),)
 
 
-def _panel(parent: Recording, column: int, label: str, trend: Trend) -> Panel:
+def _panel(parent: Recording, column: int, label: str, trend: Trend) -> Axes:
     mean = trend.mean[:, column]
     half = WIDTH_95 * np.sqrt(trend.variance[:, column])
-    return Panel(
+    return Axes(
         f"{label}, {parent.channels[column]}",
         "time",
         "",
@@ -63,5 +63,5 @@ def _panel(parent: Recording, column: int, label: str, trend: Trend) -> Panel:
             Curve(parent.times, parent.values[:, column], TRUE),
             Curve(trend.times, mean, INFERRED),
         ),
-        bands=(Band(trend.times, mean - half, mean + half, INFERRED),),
+        bands={INFERRED: np.column_stack([trend.times, mean - half, mean + half])},
     )

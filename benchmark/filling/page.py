@@ -20,7 +20,7 @@ from mocapbench.benchmark.filling.messages import (
 from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.datasets import Mask, Recording
-from mocapbench.reports import FilledCurve, FilledPage, Panel
+from mocapbench.reports import Axes, FilledCurve, FilledPage
 from mocapbench.reports.filling.curves import FILLED_FRAMES, GIVEN_FRAMES
 
 __all__ = ["compose_page"]
@@ -157,7 +157,7 @@ def _describe_gaps(gaps: Sequence[Gap], shown: Sequence[tuple[Gap, int]]) -> str
     return f"{which}{channels}. The table beside this page has every filled entry."
 
 
-def _draw_motion(filled: FilledFile, recording: Recording, gap: Gap) -> Panel | None:
+def _draw_motion(filled: FilledFile, recording: Recording, gap: Gap) -> Axes | None:
     """Return stick figures from before a gap until after it, where the file has a skeleton."""
     skeleton = filled.input_file.format.skeleton(filled.input_file.path)
     # Few frames beside it, so that figures are of filled frames, too.

@@ -35,11 +35,11 @@ def gif_bytes(picture: Motions, title: str) -> bytes:
     title : str
         Written above.
     """
-    motion = picture.motions[0]
-    truth = picture.truths[motion.against]
+    label, made = next(iter(picture.motions.items()))
+    truth = picture.truths[picture.truth_of(label)]
     centre = truth[:, :1] * [1.0, 0.0, 1.0]
     scale = (HEIGHT - 3 * _MARGIN) / max(float(truth[..., 1].max()), 1.0)
-    drawn = [_on_paper(positions - centre, scale) for positions in (truth, motion.positions)]
+    drawn = [_on_paper(positions - centre, scale) for positions in (truth, made)]
     frames = [_frame(picture, k, [places[k] for places in drawn], title) for k in range(len(truth))]
     buffer = BytesIO()
     length = max(round(picture.interval * 100) * 10, 20)
@@ -65,7 +65,8 @@ def _frame(picture: Motions, frame: int, bodies: list[Points], title: str) -> Im
     label = f"{frame * picture.interval:.2f} s" + (", hidden" if picture.hidden[frame] else "")
     words = ImageDraw.Draw(small)
     words.text((8, 6), title, fill="#1c2126")
-    words.text((8, 20), f"grey: {picture.motions[0].against} · {label}", fill="#57606a")
+    truth = picture.truth_of(next(iter(picture.motions)))
+    words.text((8, 20), f"grey: {truth} · {label}", fill="#57606a")
     return small.quantize(16)
 
 

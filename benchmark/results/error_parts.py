@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from mocapbench.basics.gaps import run_bounds
@@ -14,7 +15,7 @@ from mocapbench.benchmark.runs.record import Record
 from mocapbench.datasets import Archive, FormatError, Recording, RecordingUnavailable
 from mocapbench.datasets.kinematics import joint_positions
 from mocapbench.metrics.entries import mean_over
-from mocapbench.reports import ErrorParts, RestPose
+from mocapbench.reports import ErrorParts
 
 __all__ = ["N_PLACES", "along_gap", "error_parts"]
 
@@ -92,24 +93,25 @@ def _mean(folds: Sequence[Array]) -> Array:
     return mean_over(stacked, np.isfinite(stacked), axis=0).astype(np.float32)
 
 
-def _rest_poses(records: Sequence[Record], archive: Archive) -> dict[str, RestPose]:
+def _rest_poses(records: Sequence[Record], archive: Archive) -> dict[str, pd.DataFrame]:
     """Return the body of each task, of the first recording whose skeleton has as many joints."""
-    poses: dict[str, RestPose] = {}
+    poses: dict[str, pd.DataFrame] = {}
     for record in records:
         task, case = record.address.task, record.address.case
         if task not in poses:
             n_joints = len(record.parts[OF_JOINTS]["joint"])
             found = (_rest_pose(uri, archive) for uri in TASKS.get(task).case(case).recordings)
-            pose = next((p for p in found if p is not None and len(p.joints) == n_joints), None)
-            poses |= {task: pose} if pose else {}
+            pose = next((p for p in found if p is not None and len(p) == n_joints), None)
+            poses |= {task: pose} if pose is not None else {}
     return poses
 
 
-def _rest_pose(uri: str, archive: Archive) -> RestPose | None:
+def _rest_pose(uri: str, archive: Archive) -> pd.DataFrame | None:
     try:
         skeleton = archive.skeleton(uri)
     except (RecordingUnavailable, FormatError):
         return None
     still = Recording("rest", np.zeros(1), np.zeros((1, 0)), (), ())
-    names = tuple(segment.name for segment in skeleton.segments)
-    return RestPose(names, tuple(skeleton.parents), joint_positions(skeleton, still)[0])
+    names = [segment.name for segment in skeleton.segments]
+    pose = pd.DataFrame(joint_positions(skeleton, still)[0], names, ["x", "y", "z"])
+    return pose.assign(parent=skeleton.parents)

@@ -6,32 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
-__all__ = ["Cell", "ErrorParts", "RestPose"]
+__all__ = ["Cell", "ErrorParts"]
 
 Array = NDArray[np.float32]
 Cell = tuple[str, str, str]
 """Task, case and label."""
-
-
-@dataclass(frozen=True, eq=False)
-class RestPose:
-    """A body at rest.
-
-    Parameters
-    ----------
-    joints : tuple of J str
-        Names.
-    parents : tuple of J int
-        The joint at the other end of each bone, negative for the root.
-    places : ndarray of shape (J, 3)
-        In centimetres; the y axis points up, and the body looks along z.
-    """
-
-    joints: tuple[str, ...]
-    parents: tuple[int, ...]
-    places: NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,11 +29,13 @@ class ErrorParts:
     by_joint : mapping of (task, case, label) to ndarray of shape (J,)
         Position error relative to the root in centimetres, mean over folds; NaN where a joint is
         never hidden.
-    rest_poses : mapping of str to RestPose
-        By task, the body whose J joints those are.
+    rest_poses : mapping of str to DataFrame
+        By task, the body whose J joints those are, at rest: a row for each joint, with the row of
+        its ``parent``, negative for the root, and ``x``, ``y`` and ``z`` in centimetres; the y axis
+        points up, and the body looks along z.
     """
 
     metrics: Mapping[str, str] = field(default_factory=dict)
     along_gap: Mapping[Cell, Array] = field(default_factory=dict)
     by_joint: Mapping[Cell, Array] = field(default_factory=dict)
-    rest_poses: Mapping[str, RestPose] = field(default_factory=dict)
+    rest_poses: Mapping[str, pd.DataFrame] = field(default_factory=dict)

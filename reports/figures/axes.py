@@ -1,9 +1,8 @@
-"""Axes around marks: one panel of a figure."""
+"""Axes around marks: one drawing of a figure."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from markupsafe import Markup
 
@@ -16,8 +15,8 @@ __all__ = [
     "LEFT",
     "TOP",
     "WIDTH",
-    "Axes",
     "bottom_axis",
+    "draw_axes",
     "format_tick",
     "left_axis",
     "names",
@@ -32,39 +31,40 @@ LETTER = 5.8
 _POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-@dataclass(frozen=True)
-class Axes:
-    """Two axes and what is written around them.
+def draw_axes(
+    scales: tuple[Scale, Scale],
+    title: str,
+    names: tuple[str, str],
+    marks: Iterable[str],
+    label: str,
+) -> Markup:
+    """Return two axes around marks.
 
     Parameters
     ----------
-    x, y : Scale
-        Their places are those in the panel: y starts at its lower end.
-    title, x_label, y_label : str
-        Heading, and the quantity along each axis with its unit.
+    scales : (Scale, Scale)
+        Of x and of y. Their places are those in the drawing: y starts at its lower end.
+    title : str
+        Heading.
+    names : (str, str)
+        The quantity along each axis with its unit.
+    marks : iterable of str
+    label : str
+        Accessible name.
     """
-
-    x: Scale
-    y: Scale
-    title: str
-    x_label: str
-    y_label: str
-
-    def draw(self, marks: Iterable[str], label: str) -> Markup:
-        """Return the panel with its marks; ``label`` is its accessible name."""
-        ends = self.x.start, self.x.stop
-        return svg(
-            self.x.stop + RIGHT,
-            self.y.start + BOTTOM,
-            label,
-            [
-                text(0.0, 13.0, self.title, "title"),
-                text(0.0, 27.0, self.y_label),
-                left_axis(self.y, *ends),
-                bottom_axis(self.x, self.y.start, self.x_label),
-                *marks,
-            ],
-        )
+    x, y = scales
+    return svg(
+        x.stop + RIGHT,
+        y.start + BOTTOM,
+        label,
+        [
+            text(0.0, 13.0, title, "title"),
+            text(0.0, 27.0, names[1]),
+            left_axis(y, x.start, x.stop),
+            bottom_axis(x, y.start, names[0]),
+            *marks,
+        ],
+    )
 
 
 def panels(drawings: Iterable[Markup]) -> Markup:

@@ -9,11 +9,12 @@ from markupsafe import Markup
 
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.words import format_count, printable
-from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes
+from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes
 from mocapbench.reports.figures.fitting import fit_linear_scale
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import band, group, horizontal, polyline, rectangle
 from mocapbench.reports.figures.pictures.thinning import thin_points
+from mocapbench.reports.figures.scale import Scale
 from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
 from mocapbench.reports.figures.svg_figure import Key
 
@@ -68,17 +69,17 @@ def draw_curve(curve: FilledCurve) -> Markup:
     x = fit_linear_scale(curve.times, LEFT, WIDTH)
     values = np.concatenate([curve.visible, curve.filled, low, high])
     y = fit_linear_scale(values, TOP + HEIGHT, TOP)
-    axes = Axes(x, y, printable(curve.channel), "time, s", printable(curve.unit))
+    names = "time, s", printable(curve.unit)
     marks = [
-        *(_shade_gap(axes, *gap) for gap in curve.gaps),
+        *(_shade_gap(x, *gap) for gap in curve.gaps),
         group(
             FILLED,
             band(x.places(curve.times), y.places(low), y.places(high)),
-            _draw_line(axes, curve.times, _join_neighbours(curve)),
+            _draw_line(x, y, curve.times, _join_neighbours(curve)),
         ),
-        group(TRUTH, _draw_line(axes, curve.times, curve.visible)),
+        group(TRUTH, _draw_line(x, y, curve.times, curve.visible)),
     ]
-    return axes.draw(marks, _describe_curve(curve))
+    return draw_axes((x, y), printable(curve.channel), names, marks, _describe_curve(curve))
 
 
 def _describe_curve(curve: FilledCurve) -> str:
@@ -96,14 +97,14 @@ def draw_legend() -> tuple[Key, ...]:
     )
 
 
-def _shade_gap(axes: Axes, first: float, last: float) -> str:
+def _shade_gap(x: Scale, first: float, last: float) -> str:
     """Return the shade of a gap, cut where the axis ends."""
-    start, stop = (axes.x.place(min(max(t, axes.x.low), axes.x.high)) for t in (first, last))
+    start, stop = (x.place(min(max(t, x.low), x.high)) for t in (first, last))
     return rectangle(start, TOP, stop - start, HEIGHT, "shade")
 
 
-def _draw_line(axes: Axes, times: Array, values: Array) -> str:
-    return polyline(*thin_points(np.stack([axes.x.places(times), axes.y.places(values)], axis=1)).T)
+def _draw_line(x: Scale, y: Scale, times: Array, values: Array) -> str:
+    return polyline(*thin_points(np.stack([x.places(times), y.places(values)], axis=1)).T)
 
 
 def _join_neighbours(curve: FilledCurve) -> Array:

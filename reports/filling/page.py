@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from mocapbench.reports.bundle.panels import Illustration, Panel
-from mocapbench.reports.figures.pictures.panels import draw
+from mocapbench.reports.bundle.pictures import Axes, Illustration
+from mocapbench.reports.figures.pictures.curves import draw
 from mocapbench.reports.filling.curves import (
     MOTION_STYLES,
     FilledCurve,
@@ -36,7 +36,7 @@ class FilledPage:
     curves : tuple of FilledCurve
     caption : str
         Which gaps the curves show.
-    motion : Panel or None
+    motion : Axes or None
         Stick figures.
     units : tuple of str
         The units of the errors.
@@ -63,7 +63,7 @@ class FilledPage:
     remarks: tuple[str, ...]
     curves: tuple[FilledCurve, ...]
     caption: str
-    motion: Panel | None
+    motion: Axes | None
     units: tuple[str, ...]
     n_gaps: int
     errors: Mapping[str, float]
@@ -86,7 +86,7 @@ def render_filled(page: FilledPage) -> str:
     )
 
 
-def _illustrate_motion(motion: Panel) -> Illustration:
+def _illustrate_motion(motion: Axes) -> Illustration:
     return Illustration("filled", "Motion", "", (motion,))
 
 

@@ -19,7 +19,7 @@ from base64 import b64encode
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.reports.bundle.motions import Motions
+from mocapbench.reports.bundle.pictures import Motions
 
 __all__ = ["FINEST", "encode", "quantise_positions", "resolution"]
 
@@ -32,13 +32,13 @@ Quantised = NDArray[np.int16]
 
 def resolution(picture: Motions) -> float:
     """Return the centimetres of one step: `FINEST`, or more where positions go farther."""
-    arrays = (*picture.truths.values(), *(motion.positions for motion in picture.motions))
+    arrays = (*picture.truths.values(), *picture.motions.values())
     return max(FINEST, max(float(np.abs(array).max()) for array in arrays) / _LARGEST)
 
 
 def quantise_positions(picture: Motions) -> Quantised:
     """Return truths and motions (M, T, J, 3), one after another, in steps of `resolution`."""
-    arrays = [*picture.truths.values(), *(motion.positions for motion in picture.motions)]
+    arrays = [*picture.truths.values(), *picture.motions.values()]
     return np.round(np.stack(arrays) / resolution(picture)).astype(np.int16)
 
 
@@ -46,7 +46,7 @@ def encode(picture: Motions) -> str:
     """Return positions as text, in steps of `resolution`."""
     steps = quantise_positions(picture)
     names = list(picture.truths)
-    against = [names.index(motion.against) for motion in picture.motions]
+    against = [names.index(picture.truth_of(label)) for label in picture.motions]
     steps[len(names) :] -= steps[against]
     return _compress_differences(_time_differences(_bones(steps, picture.parents)))
 

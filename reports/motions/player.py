@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from mocapbench.basics.gaps import run_bounds
-from mocapbench.reports.bundle.motions import Motions
+from mocapbench.reports.bundle.pictures import Motions
 from mocapbench.reports.motions.encoding import encode, resolution
 from mocapbench.reports.text import slug
 
@@ -28,7 +28,7 @@ def player(picture: Motions) -> dict[str, Any]:
         "id": slug("player", picture.task, picture.title),
         "title": picture.title,
         "caption": picture.caption,
-        "labels": tuple(motion.label for motion in picture.motions),
+        "labels": tuple(picture.motions),
         "beside": picture.beside,
         "data": {
             "frames": len(picture.hidden),
@@ -38,7 +38,7 @@ def player(picture: Motions) -> dict[str, Any]:
             "sides": [_side(joint, picture.joints) for joint in picture.joints],
             "hidden": run_bounds(picture.hidden).tolist(),
             "truths": names,
-            "motions": [[motion.label, names.index(motion.against)] for motion in picture.motions],
+            "motions": [[label, names.index(picture.truth_of(label))] for label in picture.motions],
             "positions": encode(picture),
         },
     }

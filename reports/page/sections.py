@@ -7,7 +7,7 @@ from typing import Any
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
-from mocapbench.reports.bundle.motions import Motions
+from mocapbench.reports.bundle.pictures import Motions
 from mocapbench.reports.figures.pictures.draw import draw
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.task_figures import folded_figures, open_figures

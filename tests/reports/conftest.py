@@ -15,8 +15,7 @@ from mocapbench.reports import render
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout, TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
-from mocapbench.reports.bundle.motions import Motion, Motions
-from mocapbench.reports.bundle.pictures import Curve, Illustration, Panel
+from mocapbench.reports.bundle.pictures import Axes, Curve, Illustration, Motions
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
 METRICS = {
@@ -139,8 +138,8 @@ FILLED = Illustration(
     task=FRAMES.name,
     title="Filled channels",
     caption="the truth, and what two models put in its place.",
-    panels=tuple(
-        Panel(
+    axes=tuple(
+        Axes(
             channel,
             "time, s",
             "deg",
@@ -233,7 +232,7 @@ def played() -> Motions:
         parents=motion.skeleton.parents,
         hidden=hidden,
         truths={"truth": truth},
-        motions=(Motion("noisy", noisy), Motion("above", above)),
+        motions={"noisy": noisy, "above": above},
         beside="above",
     )
 

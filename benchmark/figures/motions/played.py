@@ -13,7 +13,7 @@ from mocapbench.benchmark.figures.motions.placing import PlacesJoints
 from mocapbench.benchmark.figures.motions.side_view import side_view
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.datasets import FrameByJointBy3, Frames
-from mocapbench.reports import Motion, Motions
+from mocapbench.reports import Motions
 
 __all__ = [
     "LONGEST",
@@ -157,10 +157,8 @@ def build_player(
         parents=body.skeleton.parents,
         hidden=window.hidden[rows],
         truths={name: truth for name, (truth, _) in zip(names, seen, strict=True)},
-        motions=tuple(
-            Motion(label, made, name)
-            for label, name, (_, made) in zip(labels, names, seen, strict=True)
-        ),
+        motions={label: made for label, (_, made) in zip(labels, seen, strict=True)},
+        against=dict(zip(labels, names, strict=True)),
         beside=beside,
     )
 

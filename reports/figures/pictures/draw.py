@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import singledispatch
 
 from mocapbench.reports.bundle.pictures import HeatMaps, Illustration, Space
-from mocapbench.reports.figures.pictures import heat_maps, panels, spaces
+from mocapbench.reports.figures.pictures import curves, heat_maps, spaces
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 
@@ -28,6 +28,6 @@ def draw(picture: Still, models: Mapping[str, DrawingStyle]) -> SvgFigure:
     raise TypeError(f"expected an Illustration, HeatMaps or a Space, got {type(picture).__name__}")
 
 
-draw.register(Illustration, panels.draw)
+draw.register(Illustration, curves.draw)
 draw.register(HeatMaps, heat_maps.draw)
 draw.register(Space, spaces.draw)

@@ -15,7 +15,7 @@ from markupsafe import Markup, escape
 from numpy.typing import NDArray
 
 from mocapbench.basics.words import format_count
-from mocapbench.reports.bundle.heat_maps import HeatMap, HeatMaps
+from mocapbench.reports.bundle.pictures import HeatMaps
 from mocapbench.reports.figures.axes import panels
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import horizontal, rectangle, squares, svg, text, vertical
@@ -37,7 +37,7 @@ Level = NDArray[np.intp]
 def draw(figure: HeatMaps, models: Mapping[str, DrawingStyle]) -> SvgFigure:
     """Return ``figure`` drawn; its colours run over ± its limit."""
     del models  # a matrix is in no model's colour
-    drawn = [_map(figure, heat_map) for heat_map in figure.maps]
+    drawn = [_map(figure, title) for title in figure.maps]
     return SvgFigure(figure.title, panels(drawn), _legend(figure.limit), figure.caption)
 
 
@@ -59,12 +59,13 @@ def levels_of(values: NDArray[np.float64], limit: float) -> Level:
     return np.clip(places, 0, N_LEVELS - 1)
 
 
-def _map(figure: HeatMaps, heat_map: HeatMap) -> Markup:
+def _map(figure: HeatMaps, title: str) -> Markup:
+    values = figure.maps[title]
     written = len(figure.labels) <= MOST_WRITTEN
-    cells = _cells(heat_map.values, figure.limit) if written else []
-    canvas = Markup() if written else _canvas(heat_map.values, figure.limit)
-    label = f"{figure.title}, {heat_map.title}: {_describe_matrix(figure.labels, heat_map.values)}"
-    marks = [text(LEFT, 13.0, heat_map.title, "title"), *cells, *_names(figure.labels)]
+    cells = _cells(values, figure.limit) if written else []
+    canvas = Markup() if written else _canvas(values, figure.limit)
+    label = f"{figure.title}, {title}: {_describe_matrix(figure.labels, values)}"
+    marks = [text(LEFT, 13.0, title, "title"), *cells, *_names(figure.labels)]
     drawing = svg(LEFT + SIDE + 1.0, TOP + SIDE + BOTTOM, label, marks)
     return Markup('<div class="map">{}{}</div>').format(canvas, drawing)
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.words import format_count
-from mocapbench.reports.bundle.spaces import Path3D, Space
+from mocapbench.reports.bundle.pictures import Space
 from mocapbench.reports.figures.axes import WIDTH, panels
 from mocapbench.reports.figures.legend import key, line_keys
 from mocapbench.reports.figures.marks import dot, group, polyline, svg, text
@@ -32,14 +32,15 @@ CLOUD = range(5, 9)
 _REACH = 32767
 
 Styles = Mapping[str, DrawingStyle]
+Paths = list[tuple[str, Array]]
 
 
 def draw(space: Space, models: Styles) -> SvgFigure:
     """Return ``space`` as a figure: its paths, and the highest tenth of its cloud."""
-    styles = group_styles(tuple(dict.fromkeys(path.group for path in space.paths)), models)
+    styles = group_styles(tuple(dict.fromkeys(name for name, _ in space.paths)), models)
     cloud, levels = _select_points(space)
     scaled = _fit_axes(space, cloud)
-    paths = [Path3D(scaled(path.points), path.group) for path in space.paths]
+    paths = [(name, scaled(points)) for name, points in space.paths]
     views = [
         svg(
             SIDE,
@@ -81,14 +82,14 @@ def _select_points(space: Space) -> tuple[Array, NDArray[np.intp]]:
 
 def _fit_axes(space: Space, cloud: Array) -> Callable[[Array], Array]:
     """Return the map of each axis onto [−1, 1]."""
-    points = np.concatenate([cloud, *(path.points for path in space.paths)])
+    points = np.concatenate([cloud, *(points for _, points in space.paths)])
     low, high = np.nanmin(points, axis=0), np.nanmax(points, axis=0)
     reach = np.where(high > low, high - low, 1.0) / 2.0
     return lambda of: np.asarray((of - (low + high) / 2.0) / reach)
 
 
 def _draw_view(
-    paths: list[Path3D],
+    paths: Paths,
     cloud: Array,
     levels: NDArray[np.intp],
     styles: Styles,
@@ -101,10 +102,8 @@ def _draw_view(
         *_tripod(onto),
         *(_points(places[levels == level], level) for level in CLOUD),
         *(
-            group(
-                styles[p.group], polyline(*thin_points(SIDE / 2.0 + p.points @ onto * SIDE / 3.6).T)
-            )
-            for p in paths
+            group(styles[name], polyline(*thin_points(SIDE / 2.0 + points @ onto * SIDE / 3.6).T))
+            for name, points in paths
         ),
     ]
 
@@ -127,14 +126,14 @@ def _points(places: Array, level: int) -> str:
 
 
 def _canvas(
-    space: Space, paths: list[Path3D], cloud: Array, levels: NDArray[np.intp], styles: Styles
+    space: Space, paths: Paths, cloud: Array, levels: NDArray[np.intp], styles: Styles
 ) -> Markup:
     """Return a canvas that a script draws and turns, hidden without one."""
     data = {
         "cloud": _encode_points(cloud),
         "levels": levels.tolist(),
         "paths": [
-            [styles[p.group].hue, styles[p.group].label, _encode_points(p.points)] for p in paths
+            [styles[name].hue, styles[name].label, _encode_points(points)] for name, points in paths
         ],
         "view": VIEWS[0],
     }

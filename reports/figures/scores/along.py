@@ -11,7 +11,7 @@ from markupsafe import Markup
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.units import FoldSample
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
+from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes, panels
 from mocapbench.reports.figures.fitting import fit_scale, remark
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.legend import line_keys
@@ -89,7 +89,6 @@ class _Panel:
         y = type(y)(y.low, y.high, TOP + HEIGHT, TOP)
         x = fit_scale((float(case.columns[self.column]) for case in cases), LEFT, WIDTH)
         title = self.results.metrics[self.metric].title
-        axes = Axes(x, y, heading, self.column, title)
         order = sorted(curves, key=lambda label: self._mean_loss(curves[label]))
         banded = [
             label for label in order[:N_BANDS] if any(map(_is_banded, curves[label].values()))
@@ -99,7 +98,8 @@ class _Panel:
             *(group(styles[n], _curve(curves[n], x, y, styles[n]), title=n) for n in curves),
         ]
         notes = " ".join(filter(None, (y.about_means, remark(y))))
-        return axes.draw(marks, f"{title} along {self.column}: {heading}"), notes
+        label = f"{title} along {self.column}: {heading}"
+        return draw_axes((x, y), heading, (self.column, title), marks, label), notes
 
     def _curves(self, cases: Sequence[CaseLayout]) -> Mapping[str, Curve]:
         """Return the values by label and place along the column, in ascending order."""

@@ -8,7 +8,7 @@ import numpy as np
 from markupsafe import Markup
 
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
+from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes, panels
 from mocapbench.reports.figures.fitting import fit_scale, remark
 from mocapbench.reports.figures.legend import dot_keys
 from mocapbench.reports.figures.marks import dot, group, polyline, text
@@ -92,7 +92,7 @@ def _panel(
         ),
     ]
     label = f"Median seconds against {title}; on the front: {', '.join(best)}"
-    return Axes(x, y, "", title, "median seconds a fold").draw(marks, label), remark(x)
+    return draw_axes((x, y), "", (title, "median seconds a fold"), marks, label), remark(x)
 
 
 def _apart(labels: Sequence[str], heights: Sequence[float]) -> list[str]:

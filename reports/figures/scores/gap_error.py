@@ -11,7 +11,7 @@ from mocapbench.basics.arrays import Array
 from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.error_parts import ErrorParts
-from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
+from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes, panels
 from mocapbench.reports.figures.fitting import fit_linear_scale
 from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, group, polyline
@@ -73,5 +73,6 @@ def _axes(
         *(group(styles[n], band(at, *y.places(sides))) for n, sides in bands.items()),
         *(group(styles[n], polyline(at, y.places(m)), title=n) for n, m in means.items()),
     ]
-    axes = Axes(x, y, "", "from the first hidden frame to the last", title)
-    return axes.draw(marks, f"{title} along the gap, of {format_count(len(windows), 'model')}")
+    names = "from the first hidden frame to the last", title
+    label = f"{title} along the gap, of {format_count(len(windows), 'model')}"
+    return draw_axes((x, y), "", names, marks, label)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+import pandas as pd
 from markupsafe import Markup
 
 from mocapbench.basics.arrays import Array
 from mocapbench.metrics.entries import mean_over
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.bundle.error_parts import ErrorParts, RestPose
+from mocapbench.reports.bundle.error_parts import ErrorParts
 from mocapbench.reports.figures.axes import panels
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import disc, group, polyline, svg, text
@@ -58,19 +59,18 @@ def _errors(results: TaskResults, parts: ErrorParts) -> dict[str, Array]:
     return {label: mean_over(them, np.isfinite(them), axis=0) for label, them in stacked.items()}
 
 
-def _body(pose: RestPose, errors: Array, largest: float, style: DrawingStyle) -> Markup:
+def _body(pose: pd.DataFrame, errors: Array, largest: float, style: DrawingStyle) -> Markup:
     places = _place_joints(pose)
-    parents = np.array(pose.parents)
-    bones = [(joint, parent) for joint, parent in enumerate(parents) if parent >= 0]
+    bones = [(joint, parent) for joint, parent in enumerate(pose["parent"]) if parent >= 0]
     gap = np.full(2, np.nan)
     line = np.array([row for j, p in bones for row in (places[j], places[p], gap)])
     discs = [
         disc(x, y, LARGEST * np.sqrt(error / largest), f"{name}: {error:.1f} cm")
-        for (x, y), name, error in zip(places, pose.joints, errors, strict=True)
+        for (x, y), name, error in zip(places, pose.index, errors, strict=True)
         if np.isfinite(error)
     ]
     worst = int(np.nanargmax(errors))
-    summary = f"{np.nanmean(errors):.2g} cm on average, {errors[worst]:.2g} at {pose.joints[worst]}"
+    summary = f"{np.nanmean(errors):.2g} cm on average, {errors[worst]:.2g} at {pose.index[worst]}"
     marks = [
         text(0.0, 13.0, style.label, "title"),
         text(0.0, 27.0, summary),
@@ -80,9 +80,9 @@ def _body(pose: RestPose, errors: Array, largest: float, style: DrawingStyle) ->
     return svg(WIDTH, HEIGHT, f"{style.label}: position error by joint, {summary}", marks)
 
 
-def _place_joints(pose: RestPose) -> Array:
+def _place_joints(pose: pd.DataFrame) -> Array:
     """Return where the joints are in the panel, seen from the front: the left is on the right."""
-    seen = pose.places[:, :2] * [1.0, -1.0]
+    seen = pose[["x", "y"]].to_numpy() * [1.0, -1.0]
     low, high = seen.min(axis=0), seen.max(axis=0)
     room = np.array([WIDTH - 2.0 * EDGE, HEIGHT - TOP - 2.0 * EDGE])
     unit = float((room / np.maximum(high - low, 1e-9)).min())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -21,15 +21,6 @@ from mocapbench.reports.figures.svg_figure import SvgFigure
 __all__ = ["ranking"]
 
 
-@dataclass(frozen=True)
-class _Line:
-    """A model: its mean over the cases that count, and its value in each."""
-
-    label: str
-    mean: float
-    cases: Sequence[float]
-
-
 def ranking(
     results: TaskResults, metric: str, styles: Mapping[str, DrawingStyle]
 ) -> SvgFigure | None:
@@ -42,34 +33,34 @@ def ranking(
     styles : mapping of str to DrawingStyle
         How each label is drawn.
     """
-    lines = _lines(results, metric)
-    if len(lines) < 2:
+    found = _case_means(results, metric)
+    if len(found) < 2:
         return None
-    every = (value for line in lines for value in (line.mean, *line.cases))
-    scale, bottom = fit_scale(every, NAMES, WIDTH - 8.0), TOP + ROW * len(lines)
+    every = chain.from_iterable(found.values())  # a mean lies within its values
+    scale, bottom = fit_scale(every, NAMES, WIDTH - 8.0), TOP + ROW * len(found)
     marks = [
         vertical(map(scale.place, scale.ticks(4)), TOP, bottom, "grid"),
         bottom_axis(scale, bottom, "logarithmic" if isinstance(scale, LogScale) else ""),
-        *(_row(line, place, scale, styles[line.label]) for place, line in enumerate(lines)),
+        *(_row(styles[n], place, found[n], scale) for place, n in enumerate(found)),
     ]
     info = results.metrics[metric]
-    name = f"{info.title} of {format_count(len(lines), 'model')}"
+    name = f"{info.title} of {format_count(len(found), 'model')}"
     several = len(results.representative_cases(metric)) > 1
     ticks = "A dot is a mean over cases, a tick one case." if several else ""
     caption = " ".join(filter(None, (f"{info.better} is better.", ticks, remark(scale))))
     return SvgFigure(info.title, svg(WIDTH, bottom + BOTTOM, name, marks), (), caption)
 
 
-def _lines(results: TaskResults, metric: str) -> list[_Line]:
-    """Return a line for each label with a score: those that compete best first, then the others."""
+def _case_means(results: TaskResults, metric: str) -> dict[str, list[float]]:
+    """Return the means of each label with a score: those that compete best first, then others."""
     ranked = [standing.label for standing in standings(results, metric)]
     others = [label for label in results.layout.labels if label not in ranked]
     found = {label: results.case_means(metric, label) for label in (*ranked, *others)}
-    return [_Line(label, float(np.mean(v)), v) for label, v in found.items() if v]
+    return {label: means for label, means in found.items() if means}
 
 
-def _row(line: _Line, place: int, scale: Scale, style: DrawingStyle) -> str:
-    y = place_of(place)
-    ticks = vertical(map(scale.place, line.cases), y - 4.0, y + 4.0) if len(line.cases) > 1 else ""
-    summary = f"{line.label}: {line.mean:.4g}, {format_count(len(line.cases), 'case')}"
-    return row(style, place, ticks, dot(scale.place(line.mean), y, style.shape), title=summary)
+def _row(style: DrawingStyle, place: int, means: Sequence[float], scale: Scale) -> str:
+    y, mean = place_of(place), float(np.mean(means))
+    ticks = vertical(map(scale.place, means), y - 4.0, y + 4.0) if len(means) > 1 else ""
+    summary = f"{style.label}: {mean:.4g}, {format_count(len(means), 'case')}"
+    return row(style, place, ticks, dot(scale.place(mean), y, style.shape), title=summary)

@@ -10,7 +10,7 @@ from markupsafe import Markup
 from mocapbench.basics.words import format_count
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
+from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes, panels
 from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import dot, group, polyline
 from mocapbench.reports.figures.scale import LinearScale
@@ -66,10 +66,8 @@ def _panel(curves: Mapping[str, Curve], styles: Mapping[str, DrawingStyle]) -> M
             for n, curve in curves.items()
         ),
     ]
-    axes = Axes(x, y, "", "nominal coverage", "empirical coverage")
-    return axes.draw(
-        marks, f"Nominal against empirical coverage of {format_count(len(curves), 'model')}"
-    )
+    label = f"Nominal against empirical coverage of {format_count(len(curves), 'model')}"
+    return draw_axes((x, y), "", ("nominal coverage", "empirical coverage"), marks, label)
 
 
 def _marks(curve: Curve, x: LinearScale, y: LinearScale, style: DrawingStyle) -> list[str]:

@@ -29,7 +29,7 @@ def test_each_model_that_aligns_has_a_panel_beside_the_recordings(problem):
         ),
     }
     (illustration,) = draw_alignments(Solved("style-clustering", problem, solutions))
-    before, after = illustration.panels
+    before, after = illustration.axes
     assert illustration.groups == ("walk", "run")
     assert after.title == "aligned by aligner"
     for one, other in zip(before.curves, after.curves, strict=True):
@@ -43,5 +43,5 @@ def test_the_curve_is_the_second_principal_component(problem):
     centred = frames - frames.mean(axis=0)
     _, _, axes = np.linalg.svd(centred, full_matrices=False)
     (illustration,) = draw_alignments(Solved("style-clustering", problem, {}))
-    drawn = np.concatenate([curve.y for curve in illustration.panels[0].curves])
+    drawn = np.concatenate([curve.y for curve in illustration.axes[0].curves])
     np.testing.assert_allclose(np.abs(drawn), np.abs(centred @ axes[1]))

@@ -24,7 +24,7 @@ def test_it_is_drawn_as_stick_figures_and_as_curves_between_the_styles(problem):
     blend = {"blend": np.stack([still - 1.0, still, still + 1.0]), "blended": np.array([0, 2])}
     solved = Solved("style-clustering", problem, {"poses": Clusters(LABELS, blend=blend)})
     (illustration,) = draw_blends(solved, CHANNELS)
-    strip, *curves = illustration.panels
+    strip, *curves = illustration.axes
     assert illustration.title == "Blend by poses"
     assert illustration.groups == ("transition", "cluster 0 (walk)", "cluster 2 (run)")
     assert strip.spatial

@@ -24,19 +24,19 @@ def test_components_of_a_layer_add_up_to_its_correlations(walking, matrices):
     internals = Internals(coregionalisation={"parent": matrices, "child": 4.0 * matrices})
     solved = Solved("walking", walking, {}, {"mohgp-3": internals})
     whole, leg, _ = FIGURE(solved)
-    assert [each.title for each in whole.maps][:4:3] == [
+    assert [*whole.maps][:4:3] == [
         "parent, component 1",
         "child, component 1",
     ]
-    parent, child = (sum(each.values for each in whole.maps[k : k + 3]) for k in (0, 3))
+    parent, child = (sum([*whole.maps.values()][k : k + 3]) for k in (0, 3))
     np.testing.assert_allclose(np.diag(parent), 1.0)
     np.testing.assert_allclose(parent, child)
     assert set(leg.labels) == {
         *("lfemur.rx", "lfemur.ry", "lfemur.rz", "ltibia.rx", "lfoot.rx", "lfoot.rz")
     }
     places = [walking.train[0].channels.index(channel) for channel in leg.labels]
-    for part, of in zip(leg.maps, whole.maps, strict=True):
-        np.testing.assert_array_equal(part.values, of.values[np.ix_(places, places)])
+    for part, of in zip(leg.maps.values(), whole.maps.values(), strict=True):
+        np.testing.assert_array_equal(part, of[np.ix_(places, places)])
     assert whole.labels[places[0]] == "lfemur"
 
 

@@ -11,9 +11,9 @@ def test_covariances_are_shown_beside_the_true_ones_layer_by_layer(posed):
     }
     solved = Solved("covariance-recovery", problem, solutions)
     child, parent = draw_covariances(solved)
-    assert [each.title for each in child.maps] == ["truth", "mohgp", "moa"]
-    assert [each.title for each in parent.maps] == ["truth", "mohgp"]
-    truth, double, same = (each.values for each in child.maps)
+    assert list(child.maps) == ["truth", "mohgp", "moa"]
+    assert list(parent.maps) == ["truth", "mohgp"]
+    truth, double, same = child.maps.values()
     np.testing.assert_array_equal(double, 2.0 * truth)
     np.testing.assert_array_equal(same, truth)
     every_other = np.concatenate([np.arange(d * 50, d * 50 + 50, 2) for d in range(3)])

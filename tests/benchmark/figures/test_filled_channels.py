@@ -31,8 +31,8 @@ def test_the_papers_models_and_the_best_other_are_shown_where_entries_are_hidden
     (illustration,) = draw_filled_channels(solved, CHANNELS)
     assert illustration.task == "upper-body-missing"
     assert illustration.groups == ("truth", "nn", "near")
-    assert [panel.title for panel in illustration.panels] == list(CHANNELS)
-    for column, panel in enumerate(illustration.panels):
+    assert [panel.title for panel in illustration.axes] == list(CHANNELS)
+    for column, panel in enumerate(illustration.axes):
         truth, nn, near = (curve.y for curve in panel.curves)
         np.testing.assert_array_equal(truth, problem.truth[0][:, column])
         np.testing.assert_array_equal(np.isnan(nn), ~HIDDEN)
@@ -41,6 +41,6 @@ def test_the_papers_models_and_the_best_other_are_shown_where_entries_are_hidden
 
 def test_the_channels_are_those_that_the_page_names(problem):
     (illustration,) = draw_filled_channels(_solved(problem, {"near": 1.0}), CHANNELS[1:])
-    (panel,) = illustration.panels
+    (panel,) = illustration.axes
     assert (panel.title, panel.y_label) == ("thorax.ry", "deg")
     np.testing.assert_array_equal(panel.curves[0].y, problem.truth[0][:, 1])

@@ -36,7 +36,7 @@ def solved():
 def test_the_error_along_the_gap_is_that_of_hidden_frames(solved):
     (illustration,) = draw_gap_error(solved)
     hidden = np.flatnonzero(~solved.problem.given[0].visible[:, 0])
-    for curve in illustration.panels[0].curves:
+    for curve in illustration.axes[0].curves:
         error = solved.solutions[curve.group].predictions[0].mean - solved.problem.truth[0]
         np.testing.assert_array_equal(curve.x, hidden + 1)
         np.testing.assert_allclose(curve.y, np.linalg.norm(error[hidden], axis=1))

@@ -36,11 +36,11 @@ def test_latent_spaces_of_three_dimensions_are_shown(solved):
     gplvm, gpdm, walks = FIGURE(solved)
     assert isinstance(gplvm, Space)
     assert gplvm.title == "Latent space of gplvm-window"
-    assert [path.group for path in gplvm.paths] == ["training"] * 3
-    assert {path.group for path in gpdm.paths} == {"training", "fair sample", "mean prediction"}
+    assert [name for name, _ in gplvm.paths] == ["training"] * 3
+    assert {name for name, _ in gpdm.paths} == {"training", "fair sample", "mean prediction"}
     assert "SNR(β)" in gplvm.caption
     assert "CLS(α)" in gpdm.caption
-    assert [panel.title.partition(",")[0] for panel in walks.panels] == [
+    assert [panel.title.partition(",")[0] for panel in walks.axes] == [
         "gpdm-map-viterbi: mean prediction",
         "gpdm-map-viterbi: fair sample",
     ]

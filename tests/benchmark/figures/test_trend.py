@@ -23,14 +23,14 @@ def internals(toy):
 def test_the_trend_is_shown_beside_the_true_parent_with_its_band(toy, internals):
     solved = Solved("toy", toy, {}, {"mohgp-1": internals, "trivial": Internals()})
     (figure,) = FIGURE(solved)
-    (panel,) = figure.panels
+    (panel,) = figure.axes
     true, inferred = panel.curves
     np.testing.assert_array_equal(true.y, toy.parent.values[:, 0])
     np.testing.assert_array_equal(inferred.y, internals.trend.mean[:, 0])
-    (band,) = panel.bands
+    _, low, high = panel.bands["inferred trend"].T
     half = 1.96 * np.sqrt(internals.trend.variance[:, 0])
-    np.testing.assert_allclose(band.high - inferred.y, half)
-    np.testing.assert_allclose(inferred.y - band.low, half)
+    np.testing.assert_allclose(high - inferred.y, half)
+    np.testing.assert_allclose(inferred.y - low, half)
 
 
 def test_each_channel_and_each_entrant_has_a_panel(toy, internals):
@@ -38,8 +38,8 @@ def test_each_channel_and_each_entrant_has_a_panel(toy, internals):
     solved = Solved("toy", toy, {}, {"one": internals, "two": internals})
     (illustration,) = draw_trends(solved, channels)
     expected = [f"{label}, {c}" for c in channels for label in ("one", "two")]
-    assert [panel.title for panel in illustration.panels] == expected
-    last = illustration.panels[-1]
+    assert [panel.title for panel in illustration.axes] == expected
+    last = illustration.axes[-1]
     np.testing.assert_array_equal(last.curves[0].y, toy.parent.values[:, 2])
     np.testing.assert_array_equal(last.curves[1].y, internals.trend.mean[:, 2])
 

@@ -57,7 +57,7 @@ def test_windows_are_stacked_and_joints_averaged_over_folds():
 def test_the_body_is_that_of_a_recording_with_as_many_joints():
     whole = [_record(0, "knn", [1.0], [1.0] * N_JOINTS)]
     pose = error_parts(whole, archive_at(None)).rest_poses[TASK.name]
-    assert len(pose.joints) == len(pose.parents) == len(pose.places) == N_JOINTS
-    assert np.ptp(pose.places[:, 1]) > 100.0  # it stands upright, in centimetres
+    assert len(pose) == N_JOINTS
+    assert np.ptp(pose["y"]) > 100.0  # it stands upright, in centimetres
     fewer = [_record(0, "knn", [1.0], [1.0] * 5)]
     assert error_parts(fewer, archive_at(None)).rest_poses == {}

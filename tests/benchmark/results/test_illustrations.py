@@ -40,8 +40,8 @@ def _change_page(**changes):
 
 def test_a_report_shows_what_was_filled(finished, store):
     motion, illustration = illustrations(store.records(), store, archive_at(None))
-    assert {made.label for made in motion.motions} == {"nn", "trivial"}
-    assert motion.beside != motion.motions[0].label
+    assert set(motion.motions) == {"nn", "trivial"}
+    assert motion.beside == [*motion.motions][1]
     assert illustration.task == "upper-body-missing"
     assert set(illustration.groups) == {"truth", "nn", "trivial"}
     assert illustration.title == "Filled channels: synthetic walks (synthetic)"
@@ -65,8 +65,8 @@ def test_the_figures_are_those_that_the_page_declares(store):
     )
     _change_page(figures=(draw_gap_error, one, all_three))
     one, three = illustrations(store.records(), store, archive_at(None))
-    assert [panel.title for panel in one.panels] == list(channels[:1])
-    assert [panel.title for panel in three.panels] == list(channels)
+    assert [panel.title for panel in one.axes] == list(channels[:1])
+    assert [panel.title for panel in three.axes] == list(channels)
 
 
 def test_recordings_that_are_gone_leave_the_report_without_them(store, monkeypatch):

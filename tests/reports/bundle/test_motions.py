@@ -1,29 +1,30 @@
 import numpy as np
 import pytest
 
-from mocapbench.reports import Motion, Motions
+from mocapbench.reports import Motions
 
 STILL = np.zeros((3, 2, 3))
-KNN = (Motion("knn", STILL),)
+KNN = {"knn": STILL}
 
 
-def motions(made=KNN, parents=(-1, 0), truth=STILL, beside="knn"):
+def motions(made=KNN, parents=(-1, 0), truth=STILL, beside="knn", against=None):
     hidden = np.zeros(3, dtype=bool)
     joints = ("root", "head")
-    return Motions("t", "Motion", "c", 0.1, joints, parents, hidden, {"truth": truth}, made, beside)
+    truths, shown = {"truth": truth}, (made, beside, against or {})
+    return Motions("t", "Motion", "c", 0.1, joints, parents, hidden, truths, *shown)
 
 
 def test_a_whole_picture_is_taken():
-    assert motions().motions[0].against == "truth"
+    assert motions().truth_of("knn") == "truth"
 
 
 @pytest.mark.parametrize(
     ("wrong", "told"),
     [
-        ({"made": ()}, "one motion or more"),
+        ({"made": {}}, "one motion or more"),
         ({"truth": np.zeros((4, 2, 3))}, "shape"),
         ({"truth": np.full((3, 2, 3), np.nan)}, "finite"),
-        ({"made": (Motion("knn", STILL, "another"),)}, "another"),
+        ({"against": {"knn": "another"}}, "another"),
         ({"beside": "another"}, "another"),
         ({"parents": (-1,)}, "parent"),
         ({"parents": (1, -1)}, "parent"),

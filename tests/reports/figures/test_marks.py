@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from mocapbench.reports.figures.axes import Axes, panels
+from mocapbench.reports.figures.axes import draw_axes, panels
 from mocapbench.reports.figures.fitting import fit_scale
 from mocapbench.reports.figures.marks import SHAPES, band, dot, group, polyline, svg, text
 from mocapbench.reports.figures.paths import coordinate, segments
@@ -74,9 +74,10 @@ def test_names_are_text_whatever_they_hold():
 
 
 def test_a_panel_is_named_and_writes_what_its_axes_are():
-    axes = Axes(fit_scale([0, 1], 40, 300), fit_scale([1, 900], 200, 20), "knee", "seconds", "cm")
-    line = polyline(axes.x.places(np.array([0.0, 1.0])), axes.y.places(np.array([1.0, 900.0])))
-    root = ElementTree.fromstring(panels([axes.draw([line], "the knee")]))
+    x, y = fit_scale([0, 1], 40, 300), fit_scale([1, 900], 200, 20)
+    line = polyline(x.places(np.array([0.0, 1.0])), y.places(np.array([1.0, 900.0])))
+    drawn = draw_axes((x, y), "knee", ("seconds", "cm"), [line], "the knee")
+    root = ElementTree.fromstring(panels([drawn]))
     (panel,) = root
     assert panel.attrib["role"] == "img"
     assert panel.attrib["aria-label"] == "the knee"

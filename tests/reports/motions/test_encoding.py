@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from mocapbench.datasets import GaitLibrary, joint_positions
-from mocapbench.reports import Motion, Motions
+from mocapbench.reports import Motions
 from mocapbench.reports.motions.encoding import FINEST, encode, resolution
 
 PARENTS = (-1, 0, 1, 0)
@@ -20,7 +20,7 @@ POSITIONS = arrays(float, SHAPE, elements=st.floats(-1e4, 1e4, width=32))
 
 def picture(truth, *made, parents=PARENTS):
     joints = tuple(map(str, range(len(parents))))
-    motions = tuple(Motion(str(k), positions) for k, positions in enumerate(made))
+    motions = {str(k): positions for k, positions in enumerate(made)}
     hidden = np.zeros(len(truth), dtype=bool)
     return Motions("task", "t", "c", 0.1, joints, parents, hidden, {"truth": truth}, motions, "0")
 

@@ -1,6 +1,6 @@
 import numpy as np
 
-from mocapbench.reports import Motion, Motions
+from mocapbench.reports import Motions
 from mocapbench.reports.motions.player import player
 
 PARENTS = (-1, 0, 0, 0, 3)
@@ -10,13 +10,10 @@ HIDDEN = np.array([True, False, True, True, False])
 
 def drawn():
     still = np.zeros((5, 5, 3))
-    motions = (Motion("knn", still), Motion("nn", still, "other"))
+    motions = {"knn": still, "nn": still}
     truths = {"truth": still, "other": still}
-    return player(
-        Motions(
-            "a-task", "Motion", "c", 0.1, JOINTS, (-1, 0, 0, 0, 3), HIDDEN, truths, motions, "nn"
-        )
-    )
+    shown = (motions, "nn", {"nn": "other"})
+    return player(Motions("a-task", "Motion", "c", 0.1, JOINTS, PARENTS, HIDDEN, truths, *shown))
 
 
 def test_a_side_is_that_of_a_joint_whose_counterpart_there_is():

@@ -5,7 +5,7 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from mocapbench.reports import Curve, HeatMap, HeatMaps, Illustration, Panel, Path3D, Space
+from mocapbench.reports import Axes, Curve, HeatMaps, Illustration, Space
 from mocapbench.reports.figures.pictures.draw import draw
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.resources import styles
@@ -15,11 +15,11 @@ STYLES = {
 }
 TIMES = np.linspace(0.0, 1.0, 5)
 CURVES = tuple(Curve(TIMES, TIMES * place, name) for place, name in enumerate(STYLES))
-PANELS = Illustration("t", "Curves", "", (Panel("p", "s", "cm", CURVES),))
+PANELS = Illustration("t", "Curves", "", (Axes("p", "s", "cm", CURVES),))
 SIGNS = np.where(np.eye(10) == 1.0, 1.0, -1.0)
-MATRIX = HeatMaps("t", "Matrix", "", ("joint",) * 10, (HeatMap("m", SIGNS),), 1.0, 1)
+MATRIX = HeatMaps("t", "Matrix", "", ("joint",) * 10, {"m": SIGNS}, 1.0, 1)
 CLOUD = np.random.default_rng(0).normal(size=(100, 3))
-PATHS = (Path3D(CLOUD[:9], "knn"),)
+PATHS = (("knn", CLOUD[:9]),)
 SPACE = Space("t", "Space", "", PATHS, CLOUD, np.arange(100.0), "confidence")
 
 OPACITIES = """

@@ -32,12 +32,12 @@ def gap(posed):
 
 def test_a_filled_gap_is_beside_the_truth(gap):
     (picture,) = draw_filled_motion(gap)
-    right, wrong = picture.motions
-    assert (right.label, wrong.label) == ("right", "wrong")
+    right, wrong = picture.motions["right"], picture.motions["wrong"]
+    assert list(picture.motions) == ["right", "wrong"]
     assert picture.hidden.sum() == 31
     assert picture.interval == pytest.approx(1 / 30)
-    np.testing.assert_allclose(right.positions, picture.truths["truth"], atol=1e-9)
-    error = np.linalg.norm(wrong.positions - picture.truths["truth"], axis=-1).mean(axis=1)
+    np.testing.assert_allclose(right, picture.truths["truth"], atol=1e-9)
+    error = np.linalg.norm(wrong - picture.truths["truth"], axis=-1).mean(axis=1)
     assert (error[picture.hidden] > 1.0).all()
     np.testing.assert_allclose(error[: np.argmax(picture.hidden)], 0.0, atol=1e-9)
 
@@ -65,7 +65,7 @@ def test_scaled_values_are_placed_on_the_spot(posed):
     assert (heights > 120.0).all()  # upright
     np.testing.assert_allclose(truth[:, 0, [0, 2]], 0.0, atol=1e-9)
     leg = [picture.joints.index(name) for name in ("rfemur", "rtibia", "rfoot", "rtoes")]
-    moved = np.abs(picture.motions[1].positions - truth).max(axis=(0, 2)) > 1.0
+    moved = np.abs(picture.motions["wrong"] - truth).max(axis=(0, 2)) > 1.0
     assert {*np.flatnonzero(moved)} == {*leg}
     assert draw_filled_motion(replace(solved, archive=None), find_body=scaled_angles) == ()
 
@@ -77,11 +77,11 @@ def test_a_sample_is_beside_the_reference_that_it_is_nearest_to(posed):
         for k, reference in enumerate(problem.references)
     }
     (picture,) = draw_sampled_motion(Solved("walking-synthesis", problem, solutions))
-    assert [motion.against for motion in picture.motions] == [
+    assert [picture.truth_of(label) for label in picture.motions] == [
         f"reference {k + 1}" for k in range(len(problem.references))
     ]
-    for motion in picture.motions:
-        np.testing.assert_allclose(motion.positions, picture.truths[motion.against], atol=1e-9)
+    for label, made in picture.motions.items():
+        np.testing.assert_allclose(made, picture.truths[picture.truth_of(label)], atol=1e-9)
     assert not picture.hidden.any()
     bodiless = Solved("walking-synthesis", replace(problem, body=None), solutions)
     assert draw_sampled_motion(bodiless) == ()

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from mocapbench.reports import Band, Curve, HeatMap, HeatMaps, Illustration, Panel, Path3D, Space
+from mocapbench.reports import Axes, Curve, HeatMaps, Illustration, Space
 from mocapbench.reports.figures.pictures.draw import draw
 from mocapbench.reports.figures.pictures.heat_maps import levels_of
 from mocapbench.reports.figures.pictures.spaces import projection
@@ -22,13 +22,14 @@ CURVES = tuple(
     Curve(TIMES, np.sin(TIMES + shift), name)
     for shift, name in enumerate(("truth", "knn", "<other>"))
 )
+AREA = np.column_stack([TIMES, TIMES, TIMES + 1.0])
 PICTURE = Illustration(
     "a task",
     "Filled channels",
     "caption",
     (
-        Panel("knee", "time, s", "deg", CURVES, bands=(Band(TIMES, TIMES, TIMES + 1.0, "knn"),)),
-        Panel("walk", "", "height, cm", CURVES, spatial=True),
+        Axes("knee", "time, s", "deg", CURVES, bands={"knn": AREA}),
+        Axes("walk", "", "height, cm", CURVES, spatial=True),
     ),
 )
 MATRICES = HeatMaps(
@@ -36,18 +37,18 @@ MATRICES = HeatMaps(
     title="Three outputs",
     caption="what is seen",
     labels=("hip", "hip", "knee"),
-    maps=(
-        HeatMap("parent", np.array([[1.0, -0.5, 0.0], [-0.5, 0.25, -0.001], [0.0, -0.001, 2.0]])),
-        HeatMap("child", np.eye(3)),
-    ),
+    maps={
+        "parent": np.array([[1.0, -0.5, 0.0], [-0.5, 0.25, -0.001], [0.0, -0.001, 2.0]]),
+        "child": np.eye(3),
+    },
     limit=1.0,
     columns=1,
 )
-LARGE = replace(MATRICES, labels=("hip",) * 12, maps=(HeatMap("parent", 1.0 - 2.0 * np.eye(12)),))
+LARGE = replace(MATRICES, labels=("hip",) * 12, maps={"parent": 1.0 - 2.0 * np.eye(12)})
 ANGLE = np.linspace(0.0, 6.0, 20)
 SPIRAL = np.column_stack([np.cos(ANGLE), np.sin(ANGLE), ANGLE])
 CLOUD = np.random.default_rng(0).normal(size=(200, 3))
-PATHS = (Path3D(SPIRAL, "knn"), Path3D(SPIRAL + 1.0, "knn"), Path3D(SPIRAL, "truth"))
+PATHS = (("knn", SPIRAL), ("knn", SPIRAL + 1.0), ("truth", SPIRAL))
 SPACE = Space("a task", "Latent space", "caption", PATHS, CLOUD, np.arange(200.0), "confidence")
 PICTURES = {"curves": PICTURE, "matrices": MATRICES, "large": LARGE, "space": SPACE}
 
@@ -92,7 +93,7 @@ def test_time_is_on_a_linear_axis_however_long():
 def test_a_panel_of_many_curves_stays_small():
     rng = np.random.default_rng(0)
     smooth = (np.sin(TIMES * rate) for rate in rng.uniform(0.5, 1.5, 36))
-    panel = Panel("", "", "", tuple(Curve(TIMES, y, "knn") for y in smooth))
+    panel = Axes("", "", "", tuple(Curve(TIMES, y, "knn") for y in smooth))
     assert len(draw(Illustration("t", "t", "", (panel,)), MODELS).svg) < 15_000
 
 

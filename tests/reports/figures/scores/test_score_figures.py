@@ -4,13 +4,14 @@ from dataclasses import replace
 from xml.etree import ElementTree
 
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.reports.analysis.comparisons import comparisons
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.bundle.error_parts import ErrorParts, RestPose
+from mocapbench.reports.bundle.error_parts import ErrorParts
 from mocapbench.reports.bundle.model_info import ModelInfo
 from mocapbench.reports.figures.scores.along import curves_along
 from mocapbench.reports.figures.scores.best import best_labels, mean_values
@@ -248,8 +249,8 @@ def test_without_gaps_there_is_no_error_along_them(drawn):
     assert gap_error(results, ErrorParts({"small": "mse"}), styles) is None
 
 
-POSE = RestPose(
-    ("root", "head", "hand"), (-1, 0, 0), np.array([[0, 0, 0], [0, 60, 0], [50, 30, 0]])
+POSE = pd.DataFrame(
+    {"parent": [-1, 0, 0], "x": [0, 0, 50], "y": [0, 60, 30], "z": 0}, ["root", "head", "hand"]
 )
 
 
