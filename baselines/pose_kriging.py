@@ -63,7 +63,7 @@ class PoseKriging(FrameImputer, Inductive):
     nothing is known before, plus a process of covariance :math:`\sigma_d^2 (e^{-|t - t'| / \tau} +
     v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2 S} + 0.05\, \delta)`, with S the total variance of training
     frames, each recording's about its mean. A constant that is added to a channel in the middle of
-    the body, or whole turns that are added to any angle, are therefore added to the fill, and
+    the body, or multiples of 360° added to any angle, are therefore added to the fill, and
     change nothing else.
 
     If the training motion looks like its own mirror image, the mirror image of each recording is a
