@@ -103,7 +103,7 @@ def check(
     _show(result, console)
     _write(result, markdown, junit)
     if update:
-        gate.write_reference(reference, gate.updated(known, values, records))
+        gate.write_reference(reference, gate.update_values(known, values, records))
         console.print(f"{reference} now holds this run: review it like code", soft_wrap=True)
         raise typer.Exit(ExitCode.OK)
     if result.exit_code is ExitCode.NOTHING_RAN:

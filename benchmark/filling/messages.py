@@ -250,8 +250,9 @@ def _warn_of_ends(request: FillRequest) -> Iterator[str]:
 def _warn_of_jumps(filled: FilledFile) -> Iterator[str]:
     recording = filled.recording
     jumps = find_jumps(recording, filled.input_file.request.target)
-    if jumps:
-        frame, channel, size, largest = jumps[0]
+    if len(jumps):
+        frame, channel = (int(jumps[name].iloc[0]) for name in ("frame", "channel"))
+        size, largest = (float(jumps[name].iloc[0]) for name in ("size", "largest"))
         unit = f" {recording.units[channel]}".rstrip()
         yield (
             f"At {format_count(len(jumps), 'edge')} of gaps, a channel jumps further than between "

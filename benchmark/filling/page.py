@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+import pandas as pd
 
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.figures.stick_figures import strip
 from mocapbench.benchmark.filling.choosing.choice import Choice
 from mocapbench.benchmark.filling.filled_file import FilledFile
 from mocapbench.benchmark.filling.gaps import Gap, find_gaps
-from mocapbench.benchmark.filling.jumps import Jump, find_jumps
+from mocapbench.benchmark.filling.jumps import find_jumps
 from mocapbench.benchmark.filling.messages import (
     describe_choice,
     describe_fill,
@@ -85,7 +86,7 @@ def _list_left_out(choice: Choice) -> Iterator[tuple[str, str]]:
 
 
 def _choose_gaps(
-    recording: Recording, gaps: Sequence[Gap], jumps: Sequence[Jump]
+    recording: Recording, gaps: Sequence[Gap], jumps: pd.DataFrame
 ) -> Iterator[tuple[Gap, int]]:
     """Yield gaps, each with its channels that jump at its edges, then those that move most.
 
@@ -93,7 +94,7 @@ def _choose_gaps(
     """
     per_gap = min(_CHANNELS_PER_GAP, max(len(gap.channels) for gap in gaps))
     count = min(len(gaps), _MOST_CURVES // per_gap)
-    worst = [n for jump in jumps[:1] for n, gap in enumerate(gaps) if _is_in(jump, gap)]
+    worst = [n for n, gap in enumerate(gaps) if len(_find_channels(jumps[:1], gap))]
     longest = max(range(len(gaps)), key=lambda n: len(gaps[n]))
     named = {*worst, longest}
     n_even = count - len(named) if count < len(gaps) else count
@@ -101,13 +102,15 @@ def _choose_gaps(
     for gap in (gaps[n] for n in sorted({*named, *even})):
         moved = np.ptp(recording.values[gap.start : gap.stop, list(gap.channels)], axis=0)
         most = [gap.channels[k] for k in np.argsort(-moved, kind="stable")]
-        jumping = [jump.channel for jump in jumps if _is_in(jump, gap)]
-        for channel in [*dict.fromkeys([*jumping, *most])][:per_gap]:
+        for channel in [*dict.fromkeys([*_find_channels(jumps, gap), *most])][:per_gap]:
             yield gap, channel
 
 
-def _is_in(jump: Jump, gap: Gap) -> bool:
-    return jump.channel in gap.channels and gap.start <= jump.frame < gap.stop
+def _find_channels(jumps: pd.DataFrame, gap: Gap) -> list[int]:
+    """Return the channels that jump at the edges of a gap."""
+    in_time = jumps["frame"].between(gap.start, gap.stop - 1)
+    channels: list[int] = jumps["channel"][in_time & jumps["channel"].isin(gap.channels)].tolist()
+    return channels
 
 
 def _cut_curves(

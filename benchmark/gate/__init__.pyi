@@ -3,7 +3,7 @@ from .findings import Check, Finding
 from .negative_control import check_controls
 from .reference import Reference, of_records
 from .reference_files import read_reference, write_reference
-from .regression_check import check, differences, updated
+from .regression_check import check, differences, update_values
 from .rule import Judgement, Tolerance, Verdict, judge
 from .tolerances import read_tolerances
 from .updating import require_updatable
@@ -28,6 +28,6 @@ __all__ = [
     "require_updatable",
     "summary",
     "terminal",
-    "updated",
+    "update_values",
     "write_reference",
 ]

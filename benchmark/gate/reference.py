@@ -17,7 +17,7 @@ __all__ = [
     "Folds",
     "Reference",
     "Series",
-    "gathered",
+    "join_facts",
     "of_records",
 ]
 
@@ -90,10 +90,10 @@ def of_records(records: Sequence[Record], plan: Mapping[str, Any]) -> Reference:
                 values.setdefault(series, {})[record.address.fold or 0] = value
     request = {name: plan["provenance"].get(name, _UNKNOWN) for name in REQUEST}
     scored = [record.provenance for record in records if record.scores]
-    return Reference(values, {**request, **gathered(scored, ENVIRONMENT)})
+    return Reference(values, {**request, **join_facts(scored, ENVIRONMENT)})
 
 
-def gathered(parts: Sequence[Mapping[str, str]], names: Iterable[str]) -> dict[str, str]:
+def join_facts(parts: Sequence[Mapping[str, str]], names: Iterable[str]) -> dict[str, str]:
     """Return what ``parts`` hold under ``names``, side by side where they differ."""
     held = {name: sorted({part.get(name, _UNKNOWN) for part in parts}) for name in names}
     return {name: " and ".join(values) for name, values in held.items()}

@@ -26,7 +26,7 @@ from mocapbench.benchmark.gate.reference import (
     Folds,
     Reference,
     Series,
-    gathered,
+    join_facts,
     of_records,
 )
 from mocapbench.benchmark.runs.directory import RunDirectory
@@ -63,7 +63,7 @@ def read_reference(path: Path) -> Reference | None:
 
 
 def _join_references(path: Path, parts: Sequence[Reference]) -> Reference:
-    about = gathered([part.about for part in parts], (*REQUEST, *ENVIRONMENT))
+    about = join_facts([part.about for part in parts], (*REQUEST, *ENVIRONMENT))
     for name in REQUEST:
         if len({part.about.get(name) for part in parts}) > 1:
             raise UsageError(

@@ -12,7 +12,7 @@ from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["check", "differences", "updated"]
+__all__ = ["check", "differences", "update_values"]
 
 _GRAVITY = tuple(Verdict)
 _REASONS = {Verdict.MOVED: "some fold is worse"}
@@ -117,7 +117,7 @@ def _unforeseen(reference: Reference, run: Reference, failures: Failures) -> Ite
         yield Finding(Series(address), Verdict.BROKEN, reason=reason)
 
 
-def updated(reference: Reference, run: Reference, records: Sequence[Record]) -> Reference:
+def update_values(reference: Reference, run: Reference, records: Sequence[Record]) -> Reference:
     """Return the run's values as the new reference; where the run has none, the old one is kept.
 
     Those are values whose recordings are missing where it ran, and those of failed jobs.
