@@ -59,7 +59,8 @@ def main(n_jobs: int, folder: Path) -> None:
     with timed("write", n_jobs):
         store.save_plan(bench.plan_document(jobs, provenance=about, workers=1))
         for job in jobs:
-            record, fit, _ = outcomes[job.address.label]
+            outcome = outcomes[job.address.label]
+            record, fit = outcome.record, outcome.fit
             assert fit is not None
             scores = {name: value * rng.uniform(0.9, 1.1) for name, value in record.scores.items()}
             mine = replace(

@@ -59,7 +59,7 @@ def test_the_styles_that_differ_most_are_taken(problem):
 
 
 def test_styles_are_blended_by_a_model_in_its_calibration(problem):
-    own, wrapped = (_answer(problem, model) for model in (Poses(), Calibrated(Poses())))
+    own, wrapped = (_solve(problem, model) for model in (Poses(), Calibrated(Poses())))
     np.testing.assert_array_equal(wrapped.blend["blend"], own.blend["blend"])
 
 
