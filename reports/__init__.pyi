@@ -9,30 +9,18 @@ from .bundle.regression_check import RegressionCheck
 from .bundle.task_page import Figure, RowNotes, TaskPage
 from .filling.curves import FilledCurve
 from .filling.page import FilledPage, render_filled
-from .page.page import render
-from .slopes.page import render_changes
-from .slopes.values import (
-    ChangedFact,
-    ChangedParameter,
-    ChangeVerdict,
-    ComparedTask,
-    Ending,
-    RunChanges,
-    ScoreChange,
-    Unpaired,
-)
+from .page.report import render
+from .slopes.render import render_changes
+from .slopes.values import Change, ChangeVerdict, RunChanges, ScoreChange
 from .spreadsheet import csv_text
 
 __all__ = [
     "Axes",
     "Bundle",
     "CaseLayout",
+    "Change",
     "ChangeVerdict",
-    "ChangedFact",
-    "ChangedParameter",
-    "ComparedTask",
     "Curve",
-    "Ending",
     "ErrorParts",
     "Figure",
     "FilledCurve",
@@ -51,7 +39,6 @@ __all__ = [
     "Space",
     "TaskLayout",
     "TaskPage",
-    "Unpaired",
     "csv_text",
     "render",
     "render_changes",

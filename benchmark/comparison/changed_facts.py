@@ -21,7 +21,8 @@ from mocapbench.benchmark.results.bundle import metric_info
 from mocapbench.benchmark.results.shown_metrics import shown_metrics
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
-from mocapbench.reports import ComparedTask, Ending, RunChanges, Unpaired
+from mocapbench.benchmark.tasks.base import Task
+from mocapbench.reports import Change, MetricInfo, RunChanges
 
 __all__ = ["run_changes"]
 
@@ -50,9 +51,11 @@ def run_changes(first: Side, second: Side, names: tuple[str, str]) -> RunChanges
     pairs = [pair for pair in scored if not differences(*pair)]
     if not pairs:
         require_same_problems(scored)
+    tasks = list(map(TASKS.get, dict.fromkeys(record.address.task for record, _ in pairs)))
     return RunChanges(
         names=names,
-        tasks=_tasks([record for record, _ in pairs]),
+        titles={task.name: task.page.title for task in tasks},
+        metrics={task.name: _metrics(task, [record for record, _ in pairs]) for task in tasks},
         scores=score_changes(_comparable(first, second)),
         newly_failing=_endings(common, without_score=1),
         newly_passing=_endings(common, without_score=0),
@@ -69,13 +72,8 @@ def _by_address(side: Side) -> dict[Address, Record]:
     return {record.address._replace(version=0): record for record in side}
 
 
-def _tasks(records: Sequence[Record]) -> list[ComparedTask]:
-    return [
-        ComparedTask(
-            task.name, task.page.title, {m: metric_info(m) for m in shown_metrics(task, records)}
-        )
-        for task in map(TASKS.get, dict.fromkeys(record.address.task for record in records))
-    ]
+def _metrics(task: Task, records: Sequence[Record]) -> dict[str, MetricInfo]:
+    return {metric: metric_info(metric) for metric in shown_metrics(task, records)}
 
 
 def _comparable(first: Side, second: Side) -> dict[Address, Pair]:
@@ -85,20 +83,20 @@ def _comparable(first: Side, second: Side) -> dict[Address, Pair]:
     return {a: pair for a, pair in common.items() if not (both_scored(pair) and differences(*pair))}
 
 
-def _endings(common: Iterable[Pair], *, without_score: int) -> list[Ending]:
+def _endings(common: Iterable[Pair], *, without_score: int) -> list[Change]:
     """Return the jobs that ended well in only one run: not in run 0, or not in run 1."""
     scored = (without_score == 1, without_score == 0)
     return [
-        Ending(str(a.address), a.status.value, b.status.value, (a, b)[without_score].message)
+        Change(str(a.address), a.status.value, b.status.value, (a, b)[without_score].message)
         for a, b in common
         if (a.status is Status.OK, b.status is Status.OK) == scored and a.address == b.address
     ]
 
 
-def _count_unpaired(scored: Iterable[Pair]) -> list[Unpaired]:
+def _count_unpaired(scored: Iterable[Pair]) -> dict[str, int]:
     """Return why jobs are not compared, by reason; a job may have several."""
     reasons = Counter(reason for pair in scored for reason in differences(*pair))
-    return [Unpaired(reason, jobs) for reason, jobs in reasons.most_common()]
+    return dict(reasons.most_common())
 
 
 def _only(these: ByAddress, those: ByAddress) -> list[str]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from mocapbench.benchmark.comparison.folds import Pair
 from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.results.origins import DIGEST_OF, recordings
-from mocapbench.reports import ChangedFact, ChangedParameter
+from mocapbench.reports import Change
 
 __all__ = ["changed_parameters", "changed_provenance", "changed_recordings"]
 
@@ -15,22 +15,21 @@ _OF_THE_DAY = {"started", "wall time", "command line", "acknowledgement"}
 _ABSENT = "–"
 
 
-def changed_parameters(pairs: Iterable[Pair]) -> list[ChangedParameter]:
+def changed_parameters(pairs: Iterable[Pair]) -> dict[tuple[str, Change], list[str]]:
     """Return every parameter of an entrant that differs within a pair, with its tasks."""
-    tasks: dict[tuple[str, str, str, str], dict[str, None]] = {}
+    tasks: dict[tuple[str, Change], dict[str, None]] = {}
     for one, other in pairs:
-        for fact in _differing(_texts(one.parameters), _texts(other.parameters)):
-            change = (one.address.label, fact.name, fact.before, fact.after)
-            tasks.setdefault(change, {})[one.address.task] = None
-    return [ChangedParameter(*change, tuple(where)) for change, where in tasks.items()]
+        for change in _differing(_texts(one.parameters), _texts(other.parameters)):
+            tasks.setdefault((one.address.label, change), {})[one.address.task] = None
+    return {change: list(where) for change, where in tasks.items()}
 
 
-def changed_provenance(first: Side, second: Side) -> list[ChangedFact]:
+def changed_provenance(first: Side, second: Side) -> list[Change]:
     """Return the versions and facts of machines of all records that differ between two runs."""
     return _differing(_provenance(first), _provenance(second))
 
 
-def changed_recordings(pairs: Iterable[Pair]) -> list[ChangedFact]:
+def changed_recordings(pairs: Iterable[Pair]) -> list[Change]:
     """Return the recordings of which the two runs had different files, with their digests."""
     return list(
         dict.fromkeys(
@@ -53,9 +52,9 @@ def _provenance(side: Side) -> dict[str, str]:
     return {name: "; ".join(sorted(of_name)) for name, of_name in values.items()}
 
 
-def _differing(before: Mapping[str, str], after: Mapping[str, str]) -> list[ChangedFact]:
+def _differing(before: Mapping[str, str], after: Mapping[str, str]) -> list[Change]:
     return [
-        ChangedFact(name, before.get(name, _ABSENT), after.get(name, _ABSENT))
+        Change(name, before.get(name, _ABSENT), after.get(name, _ABSENT))
         for name in dict.fromkeys([*before, *after])
         if before.get(name) != after.get(name)
     ]

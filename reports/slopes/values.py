@@ -12,16 +12,7 @@ from enum import Enum
 
 from mocapbench.reports.bundle.metric_info import MetricInfo
 
-__all__ = [
-    "ChangeVerdict",
-    "ChangedFact",
-    "ChangedParameter",
-    "ComparedTask",
-    "Ending",
-    "RunChanges",
-    "ScoreChange",
-    "Unpaired",
-]
+__all__ = ["Change", "ChangeVerdict", "RunChanges", "ScoreChange"]
 
 
 class ChangeVerdict(Enum):
@@ -75,74 +66,23 @@ class ScoreChange:
 
 
 @dataclass(frozen=True)
-class ComparedTask:
-    """A task that both runs have.
+class Change:
+    """What has another value in B than in A: a job's ending, a parameter, a version, a digest.
 
     Parameters
     ----------
-    name, title : str
-    metrics : mapping of str to MetricInfo
-        The metrics compared; slopes are drawn of the first.
-    """
-
-    name: str
-    title: str
-    metrics: Mapping[str, MetricInfo]
-
-
-@dataclass(frozen=True)
-class Ending:
-    """A job that ended in another way in B than in A.
-
-    Parameters
-    ----------
-    where : str
-        Its address, for people.
+    name : str
+        What it is, for people.
     before, after : str
-        How it ended.
+        In A and in B.
     message : str
-        Why the one without a score has none.
+        Of a job: why the one without a score has none.
     """
-
-    where: str
-    before: str
-    after: str
-    message: str
-
-
-@dataclass(frozen=True)
-class ChangedParameter:
-    """A parameter of an entrant that has another value in B.
-
-    Parameters
-    ----------
-    label, name, before, after : str
-    tasks : tuple of str
-        Where it has.
-    """
-
-    label: str
-    name: str
-    before: str
-    after: str
-    tasks: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class ChangedFact:
-    """A version, a fact of the machine, or a digest of a recording, in A and in B."""
 
     name: str
     before: str
     after: str
-
-
-@dataclass(frozen=True)
-class Unpaired:
-    """Jobs of both runs that do not solve the same problem, why, and how many."""
-
-    reason: str
-    jobs: int
+    message: str = ""
 
 
 @dataclass(frozen=True)
@@ -153,27 +93,34 @@ class RunChanges:
     ----------
     names : tuple of two str
         What to call the runs.
-    tasks : sequence of ComparedTask
+    titles : mapping of str to str
+        Of the tasks that both runs have, by name.
+    metrics : mapping of str to mapping of str to MetricInfo
+        By task, the metrics compared; slopes are drawn of the first.
     scores : sequence of ScoreChange
         Every metric of every cell that both runs have, task by task.
-    newly_failing, newly_passing : sequence of Ending
-    parameters : sequence of ChangedParameter
-    provenance, recordings : sequence of ChangedFact
-    unpaired : sequence of Unpaired
-        What was not compared.
+    newly_failing, newly_passing : sequence of Change
+        Jobs that ended in another way.
+    parameters : mapping of (label, Change) to sequence of str
+        Parameters of entrants, with the tasks where they have changed.
+    provenance, recordings : sequence of Change
+        Versions and facts of machines, and digests of recordings.
+    unpaired : mapping of str to int
+        Why jobs of both runs do not solve the same problem, and how many do not.
     only : tuple of two sequences of str
         What only A has, and only B.
     """
 
     names: tuple[str, str]
-    tasks: Sequence[ComparedTask]
+    titles: Mapping[str, str]
+    metrics: Mapping[str, Mapping[str, MetricInfo]]
     scores: Sequence[ScoreChange]
-    newly_failing: Sequence[Ending]
-    newly_passing: Sequence[Ending]
-    parameters: Sequence[ChangedParameter]
-    provenance: Sequence[ChangedFact]
-    recordings: Sequence[ChangedFact]
-    unpaired: Sequence[Unpaired]
+    newly_failing: Sequence[Change]
+    newly_passing: Sequence[Change]
+    parameters: Mapping[tuple[str, Change], Sequence[str]]
+    provenance: Sequence[Change]
+    recordings: Sequence[Change]
+    unpaired: Mapping[str, int]
     only: tuple[Sequence[str], Sequence[str]]
 
     @property

@@ -3,28 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from markupsafe import Markup
 
 from mocapbench.basics.words import format_count
-from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.resources import styles, template
 from mocapbench.reports.slopes.chart import slope_chart
-from mocapbench.reports.slopes.values import ChangeVerdict, ComparedTask, RunChanges, ScoreChange
+from mocapbench.reports.slopes.values import ChangeVerdict, RunChanges, ScoreChange
 from mocapbench.reports.text import MINUS
 
 __all__ = ["render_changes"]
-
-
-@dataclass(frozen=True)
-class Slopes:
-    """The slope chart of one task, with what stands above it."""
-
-    task: ComparedTask
-    metric: MetricInfo
-    cells: int
-    chart: Markup
 
 
 def render_changes(changes: RunChanges) -> str:
@@ -43,7 +31,9 @@ def render_changes(changes: RunChanges) -> str:
 
 
 def _metrics(changes: RunChanges) -> Mapping[str, str]:
-    return {name: info.title for task in changes.tasks for name, info in task.metrics.items()}
+    return {
+        name: info.title for metrics in changes.metrics.values() for name, info in metrics.items()
+    }
 
 
 def _summary(changes: RunChanges) -> str:
@@ -64,18 +54,21 @@ def _summary(changes: RunChanges) -> str:
     )
 
 
-def _slopes(changes: RunChanges) -> tuple[list[Slopes], list[str]]:
-    """Return the charts of the tasks of which anything changed, and the titles of the others."""
+def _slopes(changes: RunChanges) -> tuple[list[tuple[str, str, int, Markup]], list[str]]:
+    """Return the charts of the tasks of which anything changed, and the titles of the others.
+
+    A chart stands with the titles of its task and metric, and how many cells it shows.
+    """
     slopes, identical = [], []
-    for task in changes.tasks:
-        metric = next(iter(task.metrics.values()))
-        scores = [s for s in changes.scores if (s.task, s.metric) == (task.name, metric.name)]
+    for name, title in changes.titles.items():
+        metric = next(iter(changes.metrics[name].values()))
+        scores = [s for s in changes.scores if (s.task, s.metric) == (name, metric.name)]
         if _all_identical(scores):
-            identical.append(task.title)
+            identical.append(title)
         else:
-            title = f"{task.title}: {metric.title} of each cell in both runs"
-            chart = slope_chart(title, changes.names, scores)
-            slopes.append(Slopes(task, metric, len(scores), chart))
+            label = f"{title}: {metric.title} of each cell in both runs"
+            chart = slope_chart(label, changes.names, scores)
+            slopes.append((title, metric.title, len(scores), chart))
     return slopes, identical
 
 
