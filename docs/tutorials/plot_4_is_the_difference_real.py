@@ -110,7 +110,7 @@ from mocapbench.metrics.statistics import compare_ranks, holm_tests
 rest = errors.columns[1:]
 behind = np.array([errors[label] - errors[best] for label in rest])
 tests = holm_tests(behind)
-for label, mean, p in zip(rest, tests.mean, tests.p, strict=True):
+for label, mean, p in zip(rest, tests["mean"], tests.p, strict=True):
     verdict = "behind" if p <= 0.05 else "may be chance"
     print(f"{label:16}{mean:6.2f} cm, p = {p:.2g}: {verdict}")
 
@@ -127,7 +127,7 @@ for row, differences in enumerate(behind):
         alpha=0.6,
     )
 axis.hlines(range(len(rest)), tests.low, tests.high, color="C0", lw=4)
-axis.plot(tests.mean, range(len(rest)), "D", color="C1", ms=7)
+axis.plot(tests["mean"], range(len(rest)), "D", color="C1", ms=7)
 axis.plot([], [], "o", color="C3", ms=4, label="a fold")
 axis.plot([], [], color="C0", lw=4, label="interval")
 axis.plot([], [], "D", color="C1", label="mean")

@@ -10,10 +10,10 @@ and why.
 
 from mocapbench.metrics.statistics.contrast import ROPE, Contrast, contrast
 from mocapbench.metrics.statistics.differences import ALPHA, holm, mean_interval, t_test
-from mocapbench.metrics.statistics.families import HolmTests, holm_tests, holm_tests_of_means
+from mocapbench.metrics.statistics.families import holm_tests, holm_tests_of_means
 from mocapbench.metrics.statistics.means import FEWEST_UNITS, UnitMeans, too_few, unit_means
 from mocapbench.metrics.statistics.pairing import pair
-from mocapbench.metrics.statistics.posterior import Posterior, correlated_t_test
+from mocapbench.metrics.statistics.posterior import correlated_t_test
 from mocapbench.metrics.statistics.ranking import RankComparison, compare_ranks, nemenyi
 from mocapbench.metrics.statistics.signed_ranks import least_signed_rank_p, signed_rank_test
 
@@ -22,8 +22,6 @@ __all__ = [
     "FEWEST_UNITS",
     "ROPE",
     "Contrast",
-    "HolmTests",
-    "Posterior",
     "RankComparison",
     "UnitMeans",
     "compare_ranks",

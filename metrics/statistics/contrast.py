@@ -97,11 +97,14 @@ def contrast(units: pd.DataFrame, rope: float = ROPE) -> Contrast:
 def _test_advantages(means: Contrast, advantages: Array, shares: Array, rope: float) -> Contrast:
     """Return ``means`` with the interval, p-values and probabilities of the advantages."""
     low, high = mean_interval(advantages, shares=shares)
+    better, equivalent, worse = correlated_t_test(advantages, rope, shares)
     return replace(
         means,
         low=low,
         high=high,
         t_p=t_test(advantages, shares),
         signed_rank_p=signed_rank_test(advantages),
-        **vars(correlated_t_test(advantages, rope, shares)),
+        better=better,
+        equivalent=equivalent,
+        worse=worse,
     )

@@ -10,45 +10,18 @@ where the corrected p is at most α. The chance that any true difference of 0 is
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
+import pandas as pd
 from numpy.typing import ArrayLike
 
 from mocapbench.basics.arrays import Array
 from mocapbench.metrics.statistics.differences import ALPHA, holm
 from mocapbench.metrics.statistics.means import UnitMeans, unit_means
 
-__all__ = ["HolmTests", "holm_tests", "holm_tests_of_means"]
+__all__ = ["holm_tests", "holm_tests_of_means"]
 
 
-@dataclass(frozen=True, eq=False)
-class HolmTests:
-    """Means of a family with their intervals and corrected p-values, NaN where none is possible.
-
-    Parameters
-    ----------
-    mean : ndarray of shape (m,)
-    low, high : ndarray of shape (m,)
-        The interval that includes 0 where the mean is not separable from 0.
-    p : ndarray of shape (m,)
-        Two-sided, of Student's t-test, after Holm's correction.
-    uncorrected_p : ndarray of shape (m,)
-    """
-
-    mean: Array
-    low: Array
-    high: Array
-    p: Array
-    uncorrected_p: Array
-
-    @property
-    def separable(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-        """Whether each mean differs from 0 by more than chance; never without a test."""
-        return np.asarray(self.p <= ALPHA)
-
-
-def holm_tests(differences: ArrayLike) -> HolmTests:
+def holm_tests(differences: ArrayLike) -> pd.DataFrame:
     """Test each row of paired differences, all of one family.
 
     Parameters
@@ -61,18 +34,35 @@ def holm_tests(differences: ArrayLike) -> HolmTests:
     return holm_tests_of_means(unit_means(rows, np.full(n, 1.0 / n)))
 
 
-def holm_tests_of_means(means: UnitMeans) -> HolmTests:
+def holm_tests_of_means(means: UnitMeans) -> pd.DataFrame:
     """Test the means of a family.
 
     Parameters
     ----------
     means : UnitMeans
         Of shape (m,). A NaN error is a test that cannot be made: it does not count in the family.
+
+    Returns
+    -------
+    DataFrame of m rows
+        The ``mean``; ``low`` and ``high``, the interval that includes 0 where the mean is not
+        separable from 0; ``p``, two-sided, of Student's t-test after Holm's correction, and
+        ``uncorrected_p``; whether the mean is ``separable`` from 0 by more than chance, never
+        without a test. NaN where no test is possible.
     """
     p = means.p
     corrected = holm(p)
     half = means.half_widths(_levels(p, corrected))
-    return HolmTests(means.mean, means.mean - half, means.mean + half, corrected, p)
+    return pd.DataFrame(
+        {
+            "mean": means.mean,
+            "low": means.mean - half,
+            "high": means.mean + half,
+            "p": corrected,
+            "uncorrected_p": p,
+            "separable": corrected <= ALPHA,
+        }
+    )
 
 
 def _levels(p: Array, corrected: Array) -> Array:

@@ -3,29 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 from scipy import special
 
 from mocapbench.metrics.statistics.differences import mean_of
 
-__all__ = ["Posterior", "correlated_t_test"]
-
-
-@dataclass(frozen=True)
-class Posterior:
-    """Probabilities that the first entrant is better, practically equivalent or worse; sum is 1."""
-
-    better: float
-    equivalent: float
-    worse: float
+__all__ = ["correlated_t_test"]
 
 
 def correlated_t_test(
     differences: ArrayLike, rope: float, shares: ArrayLike | None = None
-) -> Posterior:
-    """Return the probabilities that the mean advantage is above, in or below the equivalent region.
+) -> tuple[float, float, float]:
+    """Return the probabilities that the mean advantage is above, in and below the region.
 
     The posterior is Student's t with ν degrees of freedom, location x̄ and squared scale
     (1 + n ρ/(1 − ρ)) e², where e is the standard error of x̄. Here n = ν + 1 is what the units are
@@ -44,9 +34,9 @@ def correlated_t_test(
 
     Returns
     -------
-    Posterior
-        NaN for a single unit, whose variance is unknown. If all differences are equal, one of the
-        three is 1.
+    (float, float, float)
+        That the first entrant is better, practically equivalent and worse; their sum is 1. NaN for
+        a single unit, whose variance is unknown. If all differences are equal, one of them is 1.
 
     References
     ----------
@@ -57,11 +47,11 @@ def correlated_t_test(
     found = mean_of(differences, shares)
     mean, error, freedom = float(found.mean), float(found.error), float(found.freedom)
     if math.isnan(error):
-        return Posterior(math.nan, math.nan, math.nan)
+        return math.nan, math.nan, math.nan
     if error == 0.0:
         better, worse = float(mean > rope), float(mean < -rope)
     else:
         scale = math.sqrt(1.0 + (freedom + 1.0) / freedom) * error
         better = float(special.stdtr(freedom, (mean - rope) / scale))
         worse = float(special.stdtr(freedom, (-rope - mean) / scale))
-    return Posterior(better, max(0.0, 1.0 - better - worse), worse)
+    return better, max(0.0, 1.0 - better - worse), worse

@@ -110,7 +110,7 @@ def cells(results: TaskResults, metric: str, cases: Sequence[CaseLayout] | None 
     known = results.representative_cases(metric) if cases is None else cases
     scored = set(results.folds.index.get_level_values("case"))
     shown = [case for case in known if case.name in scored]
-    folds, independent = results.folds.columns, results.layout.independent_folds
+    folds, independent = results.fold_numbers, results.layout.independent_folds
     ranked = results.layout.ranked
     values = results.values(metric, ranked, [case.name for case in shown])
     losses = results.metrics[metric].linear_losses(values)

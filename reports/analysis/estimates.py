@@ -91,7 +91,7 @@ def estimates(
     folds, spreads = (fold_table(scores, column) for column in ("value", "sample_two_sd"))
     by_name, found = {case.name: case for case in cases}, {}
     for name, of_case in folds.groupby(level="case"):
-        units = unit_names(by_name[str(name)], folds.columns, independent=independent)
+        units = unit_names(by_name[str(name)], map(int, folds.columns), independent=independent)
         rows = _fold_means(of_case.to_numpy(), spreads.loc[of_case.index].to_numpy(), units)
         for (metric, label, case), row in zip(of_case.index, rows, strict=True):
             found[case, label, metric] = row

@@ -30,6 +30,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 import pandas as pd
 
@@ -203,7 +204,7 @@ def _measure(
     if values.empty:
         return Measure(name, None, Decision.FAILED, {})
     estimate = FoldMean.of(values.to_list())
-    offending = values[~values.between(low, high)].to_dict()
+    offending: dict[Any, float] = values[~values.between(low, high)].to_dict()
     half = math.inf if estimate.half_width is None else estimate.half_width
     within_reach = estimate.mean + half >= low and estimate.mean - half <= high
     if passes(estimate):

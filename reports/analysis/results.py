@@ -66,6 +66,11 @@ class TaskResults:
         return values.reshape(len(labels), len(cases), values.shape[1])
 
     @cached_property
+    def fold_numbers(self) -> list[int]:
+        """The folds of the task that have scores, in ascending order."""
+        return [*map(int, self.folds.columns)]
+
+    @cached_property
     def without_data(self) -> frozenset[str]:
         """The names of the cases of which no job could run for lack of its recordings."""
         statuses: dict[str, set[str]] = {}
@@ -180,7 +185,7 @@ def list_failures(bundle: Bundle, task: str | None = None) -> pd.DataFrame:
 
 
 def _group_failures(failures: pd.DataFrame) -> dict[tuple[str, str], list[Any]]:
-    by_cell: dict[tuple[str, str], list[Any]] = {}
+    by_cell: dict[Any, list[Any]] = {}
     for failure in failures.itertuples():
         by_cell.setdefault((failure.case, failure.label), []).append(failure)
     return by_cell

@@ -30,7 +30,7 @@ def dot_keys(styles: Iterable[DrawingStyle]) -> tuple[Key, ...]:
 def key(label: str, style: DrawingStyle, *marks: str) -> Key:
     """Return a key that shows ``marks`` in the colour of ``style``."""
     swatch = f'<svg class="swatch {style.classes}" aria-hidden="true">{"".join(marks)}</svg>'
-    return Key(label, Markup(swatch), style.label)  # marks are numbers
+    return label, Markup(swatch), style.label  # marks are numbers
 
 
 def _line() -> str:

@@ -9,22 +9,9 @@ from markupsafe import Markup
 __all__ = ["Key", "SvgFigure"]
 
 
-@dataclass(frozen=True)
-class Key:
-    """One entry of a legend.
-
-    Parameters
-    ----------
-    label : str
-    swatch : Markup
-        An SVG element in the style of the series or level that the label names.
-    model : str
-        The model that it is of, by which a script highlights it; empty where it is of none.
-    """
-
-    label: str
-    swatch: Markup
-    model: str = ""
+Key = tuple[str, Markup, str]
+"""An entry of a legend: its label, an SVG element in the style of what the label names, and the
+model by which a script highlights it, empty where it is of none."""
 
 
 @dataclass(frozen=True)

@@ -6,15 +6,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
 from fnmatch import fnmatchcase
 from io import StringIO
 from string import ascii_lowercase
 
 import pandas as pd
 
-__all__ = ["PublishedAddress", "Remark", "footnotes", "marks", "parse_remarks", "remark_on"]
+__all__ = ["PublishedAddress", "Remarks", "footnotes", "marks", "parse_remarks", "remark_on"]
 
 COLUMNS = ["source", "case", "metric", "model", "note"]
 
@@ -22,19 +21,11 @@ PublishedAddress = tuple[str, str, str, str]
 """Source, case, metric and model of a number, in the paper's names."""
 
 
-@dataclass(frozen=True)
-class Remark:
-    """A note on every number whose address matches the patterns."""
-
-    patterns: PublishedAddress
-    note: str
-
-    def concerns(self, address: PublishedAddress) -> bool:
-        """Return whether the remark is about the number at ``address``."""
-        return all(map(fnmatchcase, address, self.patterns))
+Remarks = Mapping[PublishedAddress, str]
+"""A note by the patterns of the addresses that it concerns."""
 
 
-def parse_remarks(text: str) -> tuple[Remark, ...]:
+def parse_remarks(text: str) -> Remarks:
     """Return the rows of a CSV table of remarks.
 
     Raises
@@ -47,15 +38,16 @@ def parse_remarks(text: str) -> tuple[Remark, ...]:
         raise ValueError(f"remarks: expected the columns {COLUMNS}, got {list(frame)}")
     if (frame == "").to_numpy().any():
         raise ValueError("remarks: expected every field filled; * stands for anything")
-    return tuple(
-        Remark((source, case, metric, model), note)
+    return {
+        (source, case, metric, model): note
         for source, case, metric, model, note in frame.itertuples(index=False)
-    )
+    }
 
 
-def remark_on(address: PublishedAddress, remarks: Iterable[Remark]) -> str:
+def remark_on(address: PublishedAddress, remarks: Remarks) -> str:
     """Return the first remark that concerns ``address``, empty where there is none."""
-    return next((remark.note for remark in remarks if remark.concerns(address)), "")
+    concerning = (n for patterns, n in remarks.items() if all(map(fnmatchcase, address, patterns)))
+    return next(concerning, "")
 
 
 def marks(notes: Iterable[str]) -> dict[str, str]:

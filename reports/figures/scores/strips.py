@@ -41,7 +41,7 @@ def draw_strips(
 def _samples(
     results: TaskResults, metric: str, cases: Sequence[CaseLayout]
 ) -> Mapping[str, FoldSample]:
-    folds, independent = results.folds.columns, results.layout.independent_folds
+    folds, independent = results.fold_numbers, results.layout.independent_folds
     labels, names = results.layout.labels, [case.name for case in cases]
     rows = results.values(metric, labels, names)
     units = np.array(

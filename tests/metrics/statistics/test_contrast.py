@@ -89,7 +89,9 @@ def test_units_weigh_as_much_as_their_share(rows):
     weighted = holm_tests_of_means(means)
     for name in ("low", "high"):
         assert getattr(found, name) == pytest.approx(*getattr(weighted, name), abs=1e-9)
-    assert (found.advantage, found.t_p) == pytest.approx((*weighted.mean, *weighted.p), abs=1e-9)
+    assert (found.advantage, found.t_p) == pytest.approx(
+        (*weighted["mean"], *weighted["p"]), abs=1e-9
+    )
 
 
 def test_nothing_in_common_is_no_contrast():

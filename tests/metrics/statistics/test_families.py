@@ -21,7 +21,7 @@ def test_the_tests_are_those_of_scipy_with_holms_correction(differences):
     p = stats.ttest_1samp(differences, 0.0, axis=1).pvalue
     np.testing.assert_allclose(found.uncorrected_p, p)
     np.testing.assert_allclose(found.p, holm(p))
-    np.testing.assert_allclose(found.mean, differences.mean(axis=1))
+    np.testing.assert_allclose(found["mean"], differences.mean(axis=1))
 
 
 @given(families())
@@ -37,7 +37,7 @@ def test_an_interval_excludes_zero_exactly_where_the_corrected_p_is_at_most_alph
 def test_intervals_lie_about_the_mean_and_are_no_narrower_than_that_of_one_test(differences):
     found = holm_tests(differences)
     single = stats.ttest_1samp(differences, 0.0, axis=1).confidence_interval(1.0 - ALPHA)
-    np.testing.assert_allclose(found.high - found.mean, found.mean - found.low)
+    np.testing.assert_allclose(found.high - found["mean"], found["mean"] - found.low)
     assert (found.high - found.low >= (single.high - single.low) * (1.0 - 1e-9)).all()
 
 
@@ -46,7 +46,7 @@ def test_neither_the_order_of_tests_nor_of_units_matters(differences, random):
     tests, units = (random.sample(range(n), n) for n in differences.shape)
     plain, moved = (holm_tests(d) for d in (differences, differences[tests][:, units]))
     for name in ("mean", "low", "high", "p"):
-        np.testing.assert_allclose(getattr(moved, name), getattr(plain, name)[tests])
+        np.testing.assert_allclose(moved[name], plain[name][tests])
 
 
 def test_one_test_has_the_plain_interval():

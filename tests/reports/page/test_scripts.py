@@ -44,7 +44,8 @@ def address(tmp_path_factory):
     ]
     figures = [draw(picture, STYLES) for picture in (PANELS, MATRIX, SPACE)]
     legend = "".join(
-        f"<li data-model='{key.model}'>{key.swatch}{key.label}</li>" for key in figures[0].legend
+        f"<li data-model='{model}'>{swatch}{label}</li>"
+        for label, swatch, model in figures[0].legend
     )
     body = f"<ul class=legend>{legend}</ul>" + "".join(each.svg for each in figures)
     page = (

@@ -14,8 +14,8 @@ def shipped(request):
 
 
 def test_every_remark_concerns_a_printed_number(shipped):
-    for remark in shipped:
-        assert any(remark.concerns(value.address) for value in every_value()), remark
+    for remark in shipped.items():
+        assert any(remark_on(value.address, dict([remark])) for value in every_value()), remark
 
 
 def test_the_first_remark_that_matches_counts():

@@ -80,7 +80,7 @@ def test_a_group_of_a_model_is_in_its_style_and_the_truth_in_ink():
     root = ElementTree.fromstring(figure.svg)
     styles = [(g.attrib["class"], g.attrib.get("data-model")) for g in root.iter("g")]
     assert set(styles) == {("ht k0", None), ("h4 k2", "knn"), ("h0 k0", None)}
-    assert [(key.label, key.model) for key in figure.legend] == [
+    assert [(label, model) for label, _, model in figure.legend] == [
         *(("truth", ""), ("knn", "knn"), ("<other>", "")),
     ]
 
@@ -124,7 +124,7 @@ def test_large_matrices_are_data_of_a_canvas():
 
 def test_a_space_is_drawn_from_two_sides_with_a_key_for_each_group_and_level():
     figure = draw(SPACE, MODELS)
-    names = [str(key.label) for key in figure.legend]
+    names = [label for label, _, _ in figure.legend]
     assert names[:2] == ["knn", "truth"]
     assert [name.startswith("confidence ≥ 1") for name in names[2:]] == [True] * 4
     assert figure.svg.count("3 paths, elevation 22°") == 2

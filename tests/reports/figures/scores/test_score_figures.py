@@ -117,7 +117,7 @@ def test_cases_alike_in_all_other_columns_share_a_panel(along):
     lines = [path for path in arm.iter("path") if path.get("class") == "line"]
     assert len(lines) == len(LABELS)
     assert _bands(arm) == 3
-    assert [key.label for key in figure.legend] == list(LABELS)
+    assert [label for label, _, _ in figure.legend] == list(LABELS)
 
 
 @pytest.mark.parametrize(("spread", "said"), [((1.0, 2.0), False), ((1.0, 100.0), True)])
