@@ -8,7 +8,7 @@ from scipy import stats
 from scipy.linalg import block_diag, solve_triangular
 from sklearn.base import clone
 
-from mocapbench.baselines.alignment import ring
+from mocapbench.baselines.alignment import new_motion
 from mocapbench.baselines.control import Control
 from mocapbench.baselines.cyclic_alignment import CyclicAlignment
 from mocapbench.baselines.gp.solvers.dense import Dense
@@ -203,7 +203,7 @@ def test_any_number_of_recordings_takes_one_inference(model, trend, recordings, 
 def test_new_sequences_of_one_style_take_one_elimination(recordings, monkeypatch):
     fitted = CyclicAlignment(n_styles=1, n_states=8, n_restarts=1, max_iter=5).fit(recordings)
     calls = Counter()
-    counted(monkeypatch, ring, "eliminate", calls)
+    counted(monkeypatch, new_motion, "eliminate", calls)
     fitted.sample(np.arange(12.0), 25, 0)
     assert calls == {"eliminate": 1}
 
