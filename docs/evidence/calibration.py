@@ -3,7 +3,7 @@
 ::
 
     python docs/evidence/calibration.py walkers   # training walkers, each left out in turn
-    python docs/evidence/calibration.py strangers # walkers and other motions of no task's choice
+    python docs/evidence/calibration.py new       # walkers and other motions of no task's choice
     python docs/evidence/calibration.py best-of   # best-of beside its candidates
     python docs/evidence/calibration.py left-out  # Gaussian processes before and after calibration
     python docs/evidence/calibration.py gaps      # the same processes in gaps of a limb
@@ -147,7 +147,7 @@ def walkers() -> None:
             report(f"{name} {test.name}", model, list(windows(test, train, 4)))
 
 
-def strangers() -> None:
+def new_walkers() -> None:
     """Print the scores of walks and other motions that take part in no task as tests."""
     train, archive = training(), bench.archive_at(None)
     for name, make in MODELS.items():
@@ -203,7 +203,7 @@ def compare_variances(model: Calibrated, problem: ImputeProblem) -> list[float]:
 
 COMMANDS: Mapping[str, Callable[[], None]] = {
     "walkers": walkers,
-    "strangers": strangers,
+    "new": new_walkers,
     "best-of": best_of,
     "left-out": partial(compare_models, LEFT_OUT, PROCESSES),
     "gaps": partial(compare_models, GAPS, GAP_FILLING),
