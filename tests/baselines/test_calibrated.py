@@ -1,6 +1,7 @@
 """A calibrated model is a model like any other, with the means of the model in it."""
 
 import pickle
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ from mocapbench.baselines import (
     LinearImputer,
     LowRank,
     Oracle,
+    Prediction,
 )
 from mocapbench.baselines.calibration.variance_check import VarianceCheck
 from mocapbench.datasets import Recording, ToyProcess
@@ -201,11 +203,12 @@ def test_a_model_that_keeps_recordings_is_checked_by_held_out_ones_too():
 
 
 class KeepsParameters(FixedVariance):
-    """Predicts 1 with its parameters kept, and may not be fitted again."""
+    """Predicts 1 with its parameters kept, and counts its fits."""
+
+    fits: ClassVar[list[int]] = []
 
     def fit(self, recordings):
-        assert not hasattr(self, "fitted_")
-        self.fitted_ = True
+        self.fits.append(len(recordings))
         return self
 
     def impute_held_out(self, recordings):
@@ -213,11 +216,32 @@ class KeepsParameters(FixedVariance):
 
 
 def test_a_model_that_predicts_held_out_gaps_itself_is_asked_and_not_fitted_again():
+    KeepsParameters.fits.clear()
     model, given = Calibrated(KeepsParameters()).fit(RECORDINGS), RECORDINGS[2]
     check = VarianceCheck(given)
     held_out = KeepsParameters().impute_held_out(check.recordings())
     (prediction,) = model.impute([given])
     same(prediction, check.calibrate(KeepsParameters().impute([given])[0], held_out))
+    model.impute([given.hide(np.arange(3) == np.full((60, 3), 1))])  # a lost channel
+    assert KeepsParameters.fits == [3]
+
+
+class LeavesOut(FixedVariance):
+    """Is right of entries that are left out one by one, and errs in held-out gaps."""
+
+    def leave_one_out(self, recordings):
+        return [np.where(recording.visible, 1.0, np.nan) for recording in recordings]
+
+    def impute_held_out(self, recordings):
+        return [Prediction(each.mean + 10.0, each.variance) for each in self.impute(recordings)]
+
+
+@pytest.mark.parametrize(("length", "wider"), [(2, False), (3, True), (8, True)])
+def test_gaps_of_three_frames_are_held_out_where_entries_are_left_out_one_by_one(length, wider):
+    given = with_gap(swing("new", 1.0), slice(25, 25 + length))
+    (prediction,) = Calibrated(LeavesOut()).fit([given]).impute([given])
+    variance = prediction.variance[25]
+    assert (variance > 10.0).all() if wider else (variance == 1.0).all()
 
 
 CASES = {"mohgp": MOHGP(kernel="rbf", n_restarts=1, max_iter=30), "gp-independent": GPIndependent()}

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 from mocapbench.benchmark.filling.gap_problem import GapProblem
@@ -42,3 +43,9 @@ def test_a_model_that_hangs_is_stopped(attempts):
 def test_a_model_that_takes_all_memory_is_stopped(attempts):
     (hungry,) = attempts("hungry")
     assert "GiB of memory" in hungry.failure
+
+
+def test_models_fill_with_calibrated_variances_and_are_compared_without(attempts):
+    calibrated, plain = attempts("lds", "lds-uncalibrated")
+    np.testing.assert_array_equal(calibrated.prediction.mean, plain.prediction.mean)
+    assert (calibrated.prediction.variance != plain.prediction.variance).any()
