@@ -44,18 +44,8 @@ def column_names(file: str, lines: Sequence[str], notation: Notation) -> list[st
     cells = notation.cells
     names = [name.strip() for name in cells.split(lines[0])]
     below = cells.split(lines[1]) if len(lines) > 1 else []
-    if _stands_above(names, below):
-        advice = "remove what stands above the names of the columns"
-        raise FormatError(file, _EXPECTED, _quote_line(lines[0]), advice, line=1)
-    lower = _find_names(lines, len(names))
-    if lower is not None:
-        advice = (
-            f"line {lower + 1} seems to name the columns, below a head of a program that is not "
-            "known: remove the lines above, or export the recording as C3D or TRC"
-        )
-        raise FormatError(file, _EXPECTED, _quote_line(lines[0]), advice, line=1)
-    if all(is_missing(name) or looks_numeric(name) for name in names):
-        advice = f"export the table with its head, or {_EXAMPLE}"
+    advice = _advise_on_first_line(lines, names, below)
+    if advice:
         raise FormatError(file, _EXPECTED, _quote_line(lines[0]), advice, line=1)
     if notation.separator == "," and len(names) < len(below) and all(map(looks_numeric, below)):
         advice = (
@@ -65,6 +55,21 @@ def column_names(file: str, lines: Sequence[str], notation: Notation) -> list[st
         got = f"{len(below)} between commas"
         raise FormatError(file, f"{len(names)} cells", got, advice, line=2)
     return names
+
+
+def _advise_on_first_line(lines: Sequence[str], names: Sequence[str], below: Sequence[str]) -> str:
+    """Return what to do about a first line that does not name the columns, or nothing."""
+    if _stands_above(names, below):
+        return "remove what stands above the names of the columns"
+    lower = _find_names(lines, len(names))
+    if lower is not None:
+        return (
+            f"line {lower + 1} seems to name the columns, below a head of a program that is not "
+            "known: remove the lines above, or export the recording as C3D or TRC"
+        )
+    if all(is_missing(name) or looks_numeric(name) for name in names):
+        return f"export the table with its head, or {_EXAMPLE}"
+    return ""
 
 
 def _stands_above(names: Sequence[str], below: Sequence[str]) -> bool:

@@ -65,15 +65,24 @@ def read_head(file: str, lines: Sequence[str]) -> Head:
         If the file is empty, or its head is not whole.
     """
     check_lines(file, lines)
-    text = "".join(lines[:_LONGEST])
-    suffix = file.lower()
-    fitting = (one for one in DIALECTS if re.match(one.sign, text) or suffix.endswith(one.suffixes))
-    dialect = next(fitting, PLAIN)
+    dialect = _find_dialect(file, _join(lines[:_LONGEST]))
     if dialect is not PLAIN:
         return _HeadLines(file, lines, dialect).head()
     notation = notation_of(lines)
     labels = [Label(name) for name in column_names(file, lines, notation)]
     return Head(PLAIN, notation, 1, _end_of_rows(lines, 1), labels)
+
+
+def _find_dialect(file: str, text: str) -> Dialect:
+    """Return the first dialect whose sign a text has, or whose suffix its file."""
+    name = file.lower()
+    fitting = (one for one in DIALECTS if re.match(one.sign, text) or name.endswith(one.suffixes))
+    return next(fitting, PLAIN)
+
+
+def _join(lines: Sequence[str]) -> str:
+    """Return lines as one text in which each ends with a line feed alone."""
+    return "".join(line.rstrip("\r\n") + "\n" for line in lines)
 
 
 def _end_of_rows(lines: Sequence[str], start: int) -> int:
@@ -95,7 +104,7 @@ class _HeadLines:
         self.file, self.lines, self.dialect = file, lines, dialect
         self.first = self._first()
         self.last = self._last()
-        self.text = "".join(lines[self.first : self.last + 1])
+        self.text = _join(lines[self.first : self.last + 1])
 
     def head(self) -> Head:
         """Return what they say."""
@@ -119,7 +128,7 @@ class _HeadLines:
     def _first(self) -> int:
         """Return the line with which the block begins that is to be read."""
         for title in self.dialect.blocks:
-            pattern = re.compile(rf'"?{title}"?[,;\t ]*\r?\n', re.IGNORECASE)
+            pattern = re.compile(rf'"?{title}"?[,;\t \r\n]*$', re.IGNORECASE)
             for index, line in enumerate(self.lines):
                 if pattern.match(line):
                     return index

@@ -212,10 +212,7 @@ def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
     is_number = are_numbers(table) if head.dialect is PLAIN else _are_labelled(table, head)
     left_alone = frozenset(k for k, label in enumerate(head.labels) if label.left_alone)
     columns = sort_columns(names, is_number, left_alone)
-    if head.dialect is not PLAIN and not (columns.channels and table.rows):
-        got = f"{len(table.rows)} rows of {len(columns.channels)} positions or angles"
-        advice = "export the recording again, with positions or angles"
-        raise FormatError(file, "rows of numbers below the head", got, advice)
+    _check_filled(file, head, columns, len(table.rows))
     wanted = sorted({*columns.channels, *columns.likelihoods.values(), *_index_columns(columns)})
     values = table.numbers(wanted)
     numbers = {column: values[:, place] for place, column in enumerate(wanted)}
@@ -225,6 +222,14 @@ def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
         warn_of_text(file, [names[k] for k in columns.left_out if k not in keys])
     _compare_counts(file, head, len(values))
     return Sheet(table, lines[head.stop :], head, columns, numbers, plan)
+
+
+def _check_filled(file: str, head: Head, columns: TableColumns, n_rows: int) -> None:
+    """Refuse a head with nothing below, or with columns of other things alone."""
+    if head.dialect is not PLAIN and not (columns.channels and n_rows):
+        got = f"{n_rows} rows of {len(columns.channels)} positions or angles"
+        advice = "export the recording again, with positions or angles"
+        raise FormatError(file, "rows of numbers below the head", got, advice)
 
 
 def _check_named(file: str, head: Head, names: Sequence[str]) -> None:

@@ -167,3 +167,13 @@ def test_a_count_of_rows_that_the_head_has_otherwise_is_said(tmp_path):
     path.write_text(table.text.replace("NO_OF_FRAMES\t40", "NO_OF_FRAMES\t50"), newline="")
     with pytest.warns(FormatWarning, match="expected 50 rows, as its head says, got 40: the file"):
         assert len(CSV.read(path).times) == 40
+
+
+@pytest.mark.parametrize("name", ["motive 1.24", "nexus", "qualisys", "two lines", "opensim, tabs"])
+def test_lines_of_an_old_macintosh_are_lines(name, tmp_path):
+    table = TABLES[name]
+    path = tmp_path / table.name
+    path.write_text(table.text.replace("\r\n", "\n").replace("\n", "\r"), newline="")
+    recording = CSV.load(path, None)
+    assert recording.channels == table.channels
+    np.testing.assert_allclose(recording.values, table.values)
