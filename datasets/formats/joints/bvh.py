@@ -1,5 +1,7 @@
 """BVH (Biovision hierarchy): joints, and the angles and positions of each at every frame."""
 
+# Why not by a library: pybvh 0.9 writes six decimals, whatever the file had.
+
 from __future__ import annotations
 
 import warnings

@@ -1,5 +1,8 @@
 """TRC (track row column): the positions of markers as text, of OpenSim and Motion Analysis."""
 
+# Why not by a library: trc-data-reader 0.4 gives a marker with an empty cell the coordinates of the
+# next, reads nothing of rows with more cells than names, and writes a head of its own.
+
 from __future__ import annotations
 
 import warnings
