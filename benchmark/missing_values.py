@@ -24,7 +24,7 @@ __all__ = ["MissingRule", "choose_missing_rule", "tell_missing", "undecided_valu
 
 _NAMED = 4
 """Markers that a sentence names at most."""
-_READ_AS_MISSING = "this is read as missing (--missing none keeps it)."
+_READ_AS_MISSING = "this is read as missing (fill --missing none keeps it)."
 _FAR, _LONG = 3.0, 0.95
 """How many times as far as a long step, which is that quantile of its steps, a marker is from the
 origin beside zeros."""
@@ -116,7 +116,7 @@ def _count_frames(frames: Mapping[str, int], where: str, mark: str) -> str:
     count = each + format_count(max(frames.values()), "frame")
     return (
         f"{join_names([*frames], _NAMED)} {are} {where.format(count)}: if that marks missing "
-        f"values, --missing {mark} has them filled."
+        f"values, fill --missing {mark} fills them."
     )
 
 
@@ -214,13 +214,13 @@ def _tell_held(recording: Recording) -> Told:
             told[name] = told.get(name, 0) + stop - start
     if not told:
         return mask, ()
-    keep = "keeps" if len(told) == 1 else "keep"
+    keep, leap = ("keeps", "leaps") if len(told) == 1 else ("keep", "leap")
     frames = "up to " * (len(told) > 1) + format_count(max(told.values()), "frame")
     return (
         mask,
         (
             f"{join_names([*told], _NAMED)} {keep} the position of the frame before for {frames} "
-            f"while others move, and leap on: {_READ_AS_MISSING}",
+            f"while others move, and {leap} on: {_READ_AS_MISSING}",
         ),
     )
 
