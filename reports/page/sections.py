@@ -14,7 +14,7 @@ from mocapbench.reports.figures.task_figures import folded_figures, open_figures
 from mocapbench.reports.motions.player import player
 from mocapbench.reports.page.headlines import lead_headlines, win_headlines
 from mocapbench.reports.page.notes import task_notes
-from mocapbench.reports.scores.table import ScoreTable, score_table
+from mocapbench.reports.scores.table import score_table
 from mocapbench.reports.tables.base import Table
 from mocapbench.reports.tables.best_reference import best_reference_table
 from mocapbench.reports.tables.calibration import calibration_table
@@ -84,7 +84,7 @@ def task_section(
 
 def _metric_table(
     results: TaskResults, metric: str, styles: Styles
-) -> tuple[str, ScoreTable | Table]:
+) -> tuple[str, dict[str, Any] | Table]:
     """Return the title of a metric and its table: of scores, or of pairs of cases."""
     crossed, title = results.layout.page.crossed, results.metrics[metric].title
     if crossed:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from markupsafe import Markup
@@ -21,7 +22,7 @@ from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.tables.base import ABSENT, Cell
 from mocapbench.reports.text import FEWEST_DECIMALS, cell_anchor, number, slug
 
-__all__ = ["ScoreRow", "ScoreTable", "behind_cell", "describe_basis", "score_table"]
+__all__ = ["ScoreRow", "behind_cell", "describe_basis", "score_table"]
 
 Head = tuple[str, tuple[str, ...]]
 """The name of a column, with what its case varies, such as ``"noise 0.1"``, and remarks on it."""
@@ -57,42 +58,10 @@ class ScoreRow:
     family: str = ""
 
 
-@dataclass(frozen=True)
-class ScoreTable:
-    """The scores of all models by one metric, best first.
-
-    Parameters
-    ----------
-    id : str
-        Unique on the page.
-    metric, title : str
-    better : str
-        Which values are better: ``"lower"``, ``"higher"`` or ``"closest to 1"``.
-    basis : str
-        What the means and intervals rest on.
-    mean_head : (str, tuple of str)
-        The head of the means, which is that of the case where there is but one.
-    heads : tuple of (str, tuple of str)
-    rows : tuple of ScoreRow
-    axis : Markup or None
-        The axis that the drawings of all rows share.
-    """
-
-    id: str
-    metric: str
-    title: str
-    better: str
-    basis: str
-    mean_head: Head
-    heads: tuple[Head, ...]
-    rows: tuple[ScoreRow, ...]
-    axis: Markup | None
-
-
 def score_table(
     results: TaskResults, metric: str, styles: Mapping[str, DrawingStyle]
-) -> ScoreTable:
-    """Return the table of ``metric``.
+) -> dict[str, Any]:
+    """Return the table of ``metric``, best first, as the page's template reads it.
 
     Parameters
     ----------
@@ -100,26 +69,34 @@ def score_table(
     metric : str
     styles : mapping of str to DrawingStyle
         How each label is drawn.
+
+    Returns
+    -------
+    dict
+        Its ``id`` on the page; the ``metric`` and its ``title``; which values are ``better``; the
+        ``basis`` of means and intervals; the head of each column in ``heads``, and ``mean_head``,
+        that of the means, which is that of the case where there is but one; the ``rows``, each a
+        `ScoreRow`; and the ``axis`` that the drawings of all rows share, None where there is none.
     """
     counting = results.representative_cases(metric)
     others = [case for case in results.cases if case not in counting]
     shown = [*counting, *others] if len(results.cases) > 1 else []
     strips, axis = draw_strips(results, metric, counting, styles)
     whole = f"mean of {format_count(len(counting), 'case')}"
-    return ScoreTable(
-        id=slug(results.layout.name, metric),
-        metric=metric,
-        title=results.metrics[metric].title,
-        better=results.metrics[metric].better,
-        basis=describe_basis(results, metric, counting),
-        mean_head=_head(results, results.cases[0]) if len(results.cases) == 1 else (whole, ()),
-        heads=tuple(_head(results, case) for case in shown),
-        rows=(
+    return {
+        "id": slug(results.layout.name, metric),
+        "metric": metric,
+        "title": results.metrics[metric].title,
+        "better": results.metrics[metric].better,
+        "basis": describe_basis(results, metric, counting),
+        "mean_head": _head(results, results.cases[0]) if len(results.cases) == 1 else (whole, ()),
+        "heads": tuple(_head(results, case) for case in shown),
+        "rows": (
             *_entrant_rows(results, metric, counting, shown, strips),
             *_published_rows(results, metric, counting, shown),
         ),
-        axis=axis,
-    )
+        "axis": axis,
+    }
 
 
 def describe_basis(results: TaskResults, metric: str, cases: Sequence[CaseLayout]) -> str:

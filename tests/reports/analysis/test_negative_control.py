@@ -226,7 +226,7 @@ def test_an_exempt_entrant_is_never_undecided(check):
 def test_limits_and_controls_stand_below_and_are_not_ranked(check, label):
     results = check({"good": GOOD, label: {**CONTROL, "mlc": [0.99] * 4}})
     assert results.best_label("one", "mlc") == "good"
-    rows = score_table(results, "mlc", model_styles([results.layout])).rows
+    rows = score_table(results, "mlc", model_styles([results.layout]))["rows"]
     assert [(row.label, row.kind) for row in rows] == [("good", "ranked"), (label, "reference")]
 
 
