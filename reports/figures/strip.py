@@ -12,10 +12,9 @@ from markupsafe import Markup, escape
 
 from mocapbench.reports.analysis.units import FoldSample
 from mocapbench.reports.figures.axes import format_tick
-from mocapbench.reports.figures.fitting import fit_scale
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.marks import dot, horizontal, text, vertical
-from mocapbench.reports.figures.scale import Scale
+from mocapbench.reports.figures.scale import Scale, fit_scale
 from mocapbench.reports.figures.styles import DrawingStyle
 
 __all__ = ["STRIP_HEIGHT", "STRIP_WIDTH", "strip", "strip_axis", "strip_scale"]

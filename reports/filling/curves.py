@@ -10,13 +10,11 @@ from markupsafe import Markup
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.words import format_count, printable
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes
-from mocapbench.reports.figures.fitting import fit_linear_scale
-from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import band, group, horizontal, polyline, rectangle
 from mocapbench.reports.figures.pictures.thinning import thin_points
-from mocapbench.reports.figures.scale import Scale
+from mocapbench.reports.figures.scale import Scale, fit_linear_scale
 from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
-from mocapbench.reports.figures.svg_figure import Key
+from mocapbench.reports.figures.svg_figure import Key, key
 
 __all__ = [
     "FILLED_FRAMES",

@@ -9,13 +9,11 @@ from markupsafe import Markup
 
 from mocapbench.reports.bundle.pictures import Axes, Curve, Illustration
 from mocapbench.reports.figures.axes import BOTTOM, LEFT, TOP, WIDTH, draw_axes, panels
-from mocapbench.reports.figures.fitting import fit_linear_scale
-from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, group, polyline
 from mocapbench.reports.figures.pictures.thinning import thin_points
-from mocapbench.reports.figures.scale import LinearScale, Scale
+from mocapbench.reports.figures.scale import LinearScale, Scale, fit_linear_scale
 from mocapbench.reports.figures.styles import DrawingStyle, group_styles
-from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.figures.svg_figure import SvgFigure, line_keys
 
 __all__ = ["draw"]
 

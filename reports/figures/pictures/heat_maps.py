@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 from mocapbench.basics.words import format_count
 from mocapbench.reports.bundle.pictures import HeatMaps
 from mocapbench.reports.figures.axes import panels
-from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import horizontal, rectangle, squares, svg, text, vertical
 from mocapbench.reports.figures.styles import DrawingStyle
-from mocapbench.reports.figures.svg_figure import Key, SvgFigure
+from mocapbench.reports.figures.svg_figure import Key, SvgFigure, key
 from mocapbench.reports.text import MINUS, number
 
 __all__ = ["MOST_WRITTEN", "draw", "levels_of"]

@@ -14,11 +14,10 @@ from mocapbench.basics.arrays import Array
 from mocapbench.basics.words import format_count
 from mocapbench.reports.bundle.pictures import Space
 from mocapbench.reports.figures.axes import WIDTH, panels
-from mocapbench.reports.figures.legend import key, line_keys
 from mocapbench.reports.figures.marks import dot, group, polyline, svg, text
 from mocapbench.reports.figures.pictures.thinning import thin_points
 from mocapbench.reports.figures.styles import DrawingStyle, group_styles
-from mocapbench.reports.figures.svg_figure import Key, SvgFigure
+from mocapbench.reports.figures.svg_figure import Key, SvgFigure, key, line_keys
 
 __all__ = ["draw", "projection"]
 

@@ -12,14 +12,12 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.units import FoldSample
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes, panels
-from mocapbench.reports.figures.fitting import fit_scale, remark
 from mocapbench.reports.figures.intervals import centre, interval
-from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, dot, group, polyline
-from mocapbench.reports.figures.scale import Scale
+from mocapbench.reports.figures.scale import Scale, fit_scale, remark
 from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_values
 from mocapbench.reports.figures.styles import DrawingStyle
-from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.figures.svg_figure import SvgFigure, line_keys
 
 __all__ = ["curves_along"]
 

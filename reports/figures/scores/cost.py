@@ -9,13 +9,11 @@ from markupsafe import Markup
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes, panels
-from mocapbench.reports.figures.fitting import fit_scale, remark
-from mocapbench.reports.figures.legend import dot_keys
 from mocapbench.reports.figures.marks import dot, group, polyline, text
-from mocapbench.reports.figures.scale import Scale
+from mocapbench.reports.figures.scale import Scale, fit_scale, remark
 from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
-from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.figures.svg_figure import SvgFigure, dot_keys
 
 __all__ = ["cost_against_error", "front"]
 

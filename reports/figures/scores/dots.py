@@ -11,10 +11,9 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.units import FoldSample
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
-from mocapbench.reports.figures.fitting import fit_scale, remark
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
-from mocapbench.reports.figures.scale import LogScale, Scale
+from mocapbench.reports.figures.scale import LogScale, Scale, fit_scale, remark
 from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_values
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
 from mocapbench.reports.figures.styles import DrawingStyle

@@ -11,13 +11,11 @@ from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.comparisons import Comparison, PublishedVerdict
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
-from mocapbench.reports.figures.fitting import fit_scale
-from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
-from mocapbench.reports.figures.scale import LogScale, Scale
+from mocapbench.reports.figures.scale import LogScale, Scale, fit_scale
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
 from mocapbench.reports.figures.styles import DrawingStyle
-from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.figures.svg_figure import SvgFigure, key
 
 __all__ = ["forest"]
 

@@ -12,12 +12,11 @@ from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.error_parts import ErrorParts
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes, panels
-from mocapbench.reports.figures.fitting import fit_linear_scale
-from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, group, polyline
+from mocapbench.reports.figures.scale import fit_linear_scale
 from mocapbench.reports.figures.scores.best import CHOICE, best_labels
 from mocapbench.reports.figures.styles import DrawingStyle
-from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.figures.svg_figure import SvgFigure, line_keys
 
 __all__ = ["gap_error"]
 

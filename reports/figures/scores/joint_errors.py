@@ -13,11 +13,10 @@ from mocapbench.metrics.entries import mean_over
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.error_parts import ErrorParts
 from mocapbench.reports.figures.axes import panels
-from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import disc, group, polyline, svg, text
 from mocapbench.reports.figures.scores.best import CHOICE, best_labels
 from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
-from mocapbench.reports.figures.svg_figure import Key, SvgFigure
+from mocapbench.reports.figures.svg_figure import Key, SvgFigure, key
 
 __all__ = ["joint_errors"]
 

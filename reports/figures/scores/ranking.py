@@ -11,9 +11,8 @@ from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis
-from mocapbench.reports.figures.fitting import fit_scale, remark
 from mocapbench.reports.figures.marks import dot, svg, vertical
-from mocapbench.reports.figures.scale import LogScale, Scale
+from mocapbench.reports.figures.scale import LogScale, Scale, fit_scale, remark
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure

@@ -11,12 +11,11 @@ from mocapbench.basics.words import format_count
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes, panels
-from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import dot, group, polyline
 from mocapbench.reports.figures.scale import LinearScale
 from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.figures.styles import DrawingStyle
-from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.figures.svg_figure import SvgFigure, line_keys
 
 __all__ = ["reliability"]
 

@@ -7,9 +7,8 @@ from scipy import stats
 
 from mocapbench.metrics.statistics import mean_interval
 from mocapbench.reports.analysis.units import FoldSample
-from mocapbench.reports.figures.fitting import fit_scale
 from mocapbench.reports.figures.intervals import centre, interval
-from mocapbench.reports.figures.scale import LinearScale, LogScale
+from mocapbench.reports.figures.scale import LinearScale, LogScale, fit_scale
 
 positive = st.lists(st.floats(0.01, 1e3), min_size=2, max_size=12)
 

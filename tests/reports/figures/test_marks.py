@@ -11,9 +11,18 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from mocapbench.reports.figures.axes import draw_axes, panels
-from mocapbench.reports.figures.fitting import fit_scale
-from mocapbench.reports.figures.marks import SHAPES, band, dot, group, polyline, svg, text
-from mocapbench.reports.figures.paths import coordinate, segments
+from mocapbench.reports.figures.marks import (
+    SHAPES,
+    band,
+    coordinate,
+    dot,
+    group,
+    polyline,
+    segments,
+    svg,
+    text,
+)
+from mocapbench.reports.figures.scale import fit_scale
 from mocapbench.reports.figures.styles import DrawingStyle
 
 PLACES = st.floats(-2000.0, 2000.0)

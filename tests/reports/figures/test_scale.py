@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.reports.figures.axes import format_tick
-from mocapbench.reports.figures.fitting import fit_scale, remark
-from mocapbench.reports.figures.scale import LinearScale, LogScale
+from mocapbench.reports.figures.scale import LinearScale, LogScale, fit_scale, remark
 
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False).map(lambda x: round(x, 6))
 POSITIVE = st.floats(1e-6, 1e6)
