@@ -1,10 +1,11 @@
-"""A channel that is constant where it is visible keeps its constant, whatever the model."""
+"""Attempts to fill: constant channels stay constant, and windows put together make the whole."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from mocapbench.baselines import LinearImputer
 from mocapbench.benchmark.filling.fill_attempt import attempt_fill, keep_constants
 from mocapbench.benchmark.filling.gap_problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.registry import MODELS
@@ -28,7 +29,7 @@ def problem(recording, first=50, stop=80, train=()):
 
 
 @pytest.mark.parametrize("model", ["linear", "rigid-body", "low-rank", "channel-kriging"])
-def test_whatever_the_model(floor, model):
+def test_a_constant_channel_stays_constant_whatever_the_model(floor, model):
     asked = problem(floor)
     prediction = attempt_fill(MODELS.get(model), asked, 2**40).prediction
     assert (prediction.mean.reshape(-1, 3)[:, 2] == 0.25).all()
@@ -68,3 +69,17 @@ def test_a_channel_that_moves_elsewhere_is_not_constant(floor):
 def test_a_channel_that_is_visible_nowhere_is_left_to_the_model(floor):
     other = replace(floor, name="other")
     assert not kept(problem(floor, 0, 200, train=(other,)))
+
+
+class ShortLinear(LinearImputer):
+    """Takes recordings of sixty frames."""
+
+    max_frames = 60
+
+
+def test_a_line_is_the_same_in_windows_and_they_are_counted(waves, hidden):
+    mask = hidden((50, 58, [0, 1]), (100, 104, [2]), (108, 112, [3]), (150, 170, [0]))
+    asked = GapProblem(waves().hide(mask), mask)
+    whole, cut = (attempt_fill(model, asked, 2**40) for model in (LinearImputer, ShortLinear))
+    np.testing.assert_allclose(cut.prediction.mean, whole.prediction.mean, rtol=1e-12)
+    assert (whole.n_windows, cut.n_windows) == (0, 3)
