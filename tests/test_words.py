@@ -295,6 +295,16 @@ def test_an_exception_is_needed(word):
     assert idle == []
 
 
+def test_the_type_of_frames_is_of_values_and_that_of_their_numbers_is_another():
+    aliases = [
+        ast.unparse(node.value)
+        for _, tree in parse(PRODUCT)
+        for node in tree.body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "Frames"
+    ]
+    assert set(aliases) == {"NDArray[np.float64]"}, "for indices of frames, write FrameIndex"
+
+
 SAME_NAME = {
     "base": "what the other modules of its package derive from",
     "errors": "the errors of its package",

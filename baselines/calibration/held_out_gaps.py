@@ -47,7 +47,7 @@ It yields frames near that position (0 to 1) of the recording, those to be prefe
 N_SETS = 3
 """Sets of held-out gaps of a recording."""
 _LEAST_LEFT = 2
-"""FrameIndex that stay visible: one tells nothing of how far a channel goes."""
+"""Frames that stay visible: one tells nothing of how far a channel goes."""
 _SHARES = (1.0, 0.5, 0.25, 0.125, 0.0625)
 """By which a gap is shortened that fits nowhere."""
 _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
