@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from mocapbench.datasets.acclaim.errors import AcclaimError
-from mocapbench.datasets.encoding import MARK, decode_text
+from mocapbench.datasets.encoding import MARK, decode_text, foreign_encoding
 
 __all__ = [
     "FINITE_NUMBERS",
@@ -126,8 +126,8 @@ def read_text(path: str | Path, max_bytes: int) -> str:
     Raises
     ------
     AcclaimError
-        If the file cannot be opened, is too large, has an over-long line, is empty or has
-        a NUL byte.
+        If the file cannot be opened, is too large, has an over-long line, is empty, has a
+        NUL byte, or is in another encoding.
     """
     file = str(path)
     try:
@@ -135,6 +135,9 @@ def read_text(path: str | Path, max_bytes: int) -> str:
             data = b"".join(_chunks(stream, max_bytes))
     except OSError as problem:
         raise AcclaimError(file, None, "a readable file", str(problem)) from problem
+    foreign = foreign_encoding(data[:MAX_LINE])
+    if foreign:
+        raise AcclaimError(file, None, "text in UTF-8 or Windows-1252", foreign)
     _require_bounded(data, file, max_bytes)
     if not data or data.isspace():
         raise AcclaimError(file, None, "an Acclaim file", "an empty file")

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from string import printable
 
-from mocapbench.datasets.encoding import MARK, encoding_of
+from mocapbench.datasets.encoding import MARK, encoding_of, foreign_encoding
 from mocapbench.datasets.formats.errors import FormatError
 
 __all__ = ["read_lines", "write_lines"]
@@ -14,11 +13,7 @@ __all__ = ["read_lines", "write_lines"]
 _ADVICE = "save it as text in UTF-8"
 _TEXT = "text in UTF-8, in Windows-1252, or in UTF-16 or UTF-32 with a byte order mark"
 _START = 4096  # bytes by which text is told from other files
-_NULS = {1: "UTF-16", 3: "UTF-32"}
-"""Encodings by the NUL bytes that stand beside each letter of English."""
-_EBCDIC = "cp037"
-_KEYS = frozenset(printable + "\x85")  # also the end of a line in EBCDIC
-_LEAST_SHARE = 0.9  # of such characters in text
+_WITHOUT = dict.fromkeys(["UTF-16", "UTF-32"], " without that mark")
 
 
 def read_lines(path: Path) -> list[str]:
@@ -64,20 +59,9 @@ def _split_file(path: Path, encoding: str, end: str) -> list[str]:
 
 def _check_encoding(path: Path, encoding: str) -> None:
     """Refuse text in an encoding that nothing in the file names."""
-    with path.open("rb") as file:
-        data = file.read(_START)
     if encoding.startswith("utf-") and encoding != "utf-8":
         return
-    beside = round(data.count(0) / max(len(data) - data.count(0), 1))
-    if beside in _NULS:
-        got = f"{_NULS[beside]} without that mark"
-        raise FormatError(path.name, _TEXT, got, _ADVICE)
-    if _share_of_ascii(data, _EBCDIC) >= _LEAST_SHARE > _share_of_ascii(data, "latin-1"):
-        got = "EBCDIC, as mainframes write it"
-        raise FormatError(path.name, _TEXT, got, _ADVICE)
-
-
-def _share_of_ascii(data: bytes, encoding: str) -> float:
-    """Return the share of characters that a keyboard of English has."""
-    found = (one in _KEYS for one in data.decode(encoding))
-    return sum(found) / max(len(data), 1)
+    with path.open("rb") as file:
+        name = foreign_encoding(file.read(_START))
+    if name:
+        raise FormatError(path.name, _TEXT, f"{name}{_WITHOUT.get(name, '')}", _ADVICE)

@@ -70,10 +70,14 @@ def test_an_encoding_that_nothing_names_is_refused_in_few_words(tmp_path, name, 
     assert len(str(caught.value)) < 300
 
 
-def test_an_acclaim_motion_of_two_bytes_a_character_is_refused(tmp_path):
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be", "utf-32", "utf-32-le", "cp037"])
+@pytest.mark.parametrize("suffix", [".amc", ".asf"])
+def test_acclaim_files_are_text_of_one_byte_a_character(tmp_path, suffix, encoding):
     path = sample("acclaim", tmp_path)
-    path.write_bytes(path.read_bytes().decode().encode("utf-16-le"))
-    with pytest.raises(FormatError, match=r"line 1: expected text in UTF-8.* got a NUL byte"):
+    file = path.with_suffix(suffix)
+    file.write_bytes(file.read_text().replace("\n", "\x85").encode(encoding))
+    called = "EBCDIC" if encoding == "cp037" else encoding[:6].upper()
+    with pytest.raises(FormatError, match=f"expected text in UTF-8 or .* got {called}; export"):
         format_for(path).read(path)
 
 
