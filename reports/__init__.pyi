@@ -5,7 +5,6 @@ from .bundle.metric_info import MetricInfo
 from .bundle.model_info import ModelInfo
 from .bundle.origin import Origin
 from .bundle.pictures import Axes, Curve, HeatMaps, Illustration, Motions, Picture, Space
-from .bundle.regression_check import RegressionCheck
 from .bundle.task_page import Figure, RowNotes, TaskPage
 from .filling.curves import FilledCurve
 from .filling.page import FilledPage, render_filled
@@ -32,7 +31,6 @@ __all__ = [
     "Motions",
     "Origin",
     "Picture",
-    "RegressionCheck",
     "RowNotes",
     "RunChanges",
     "ScoreChange",

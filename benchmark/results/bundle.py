@@ -20,7 +20,6 @@ from mocapbench.reports import (
     ErrorParts,
     MetricInfo,
     Picture,
-    RegressionCheck,
     TaskLayout,
 )
 
@@ -64,7 +63,7 @@ def bundle(
         metrics={name: metric_info(name) for name in sorted(used)},
         provenance=provenance,
         illustrations=illustrations,
-        check=RegressionCheck(**check) if check else None,
+        check=check or None,
         origins=origins(records),
         parts=parts or ErrorParts(),
     )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import pandas as pd
 
@@ -16,7 +17,6 @@ from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.origin import Origin
 from mocapbench.reports.bundle.pictures import Picture
-from mocapbench.reports.bundle.regression_check import RegressionCheck
 
 __all__ = ["STATUSES", "Bundle"]
 
@@ -59,8 +59,12 @@ class Bundle:
         where the mapping has them.
     illustrations : tuple of Illustration, HeatMaps, Space or Motions
         Figures of the tasks, in page order.
-    check : RegressionCheck or None
-        The result of the last check against reference values, if there was one.
+    check : mapping or None
+        The result of the last check against reference values, if there was one: where these come
+        from, ``reference``; counts and environment in a line, ``summary``; whether the run
+        ``passed``; and ``findings``, a mapping for each (task, case, label, metric) with these
+        names, ``verdict``, ``fails``, ``reason``, and where values were paired ``n``,
+        ``reference``, ``run``, ``change``, ``worst`` and ``allowance``.
     origins : mapping of (task, case, label) to Origin
         Where the scores of each cell come from, as far as it is known.
     parts : ErrorParts
@@ -79,7 +83,7 @@ class Bundle:
     metrics: Mapping[str, MetricInfo]
     provenance: Mapping[str, str]
     illustrations: tuple[Picture, ...] = ()
-    check: RegressionCheck | None = None
+    check: Mapping[str, Any] | None = None
     origins: Mapping[tuple[str, str, str], Origin] = field(default_factory=dict)
     parts: ErrorParts = field(default_factory=ErrorParts)
 

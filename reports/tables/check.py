@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from mocapbench.reports.bundle.regression_check import RegressionCheck
 from mocapbench.reports.tables.base import Cell, Table, headings
 from mocapbench.reports.text import MINUS
 
@@ -21,9 +20,9 @@ RULE = (
 )
 
 
-def check_table(check: RegressionCheck) -> Table | None:
+def check_table(check: Mapping[str, Any]) -> Table | None:
     """Return the values that failed or changed, failures first; None if there are none."""
-    notable = [finding for finding in check.findings if finding["verdict"] not in QUIET]
+    notable = [finding for finding in check["findings"] if finding["verdict"] not in QUIET]
     notable.sort(key=lambda finding: not finding["fails"])
     if not notable:
         return None
@@ -31,7 +30,7 @@ def check_table(check: RegressionCheck) -> Table | None:
     more = (f"{hidden} more: mocapbench check lists all.",) if hidden > 0 else ()
     return Table(
         id="regression-check",
-        caption=f"Differences from the reference values in {check.reference}",
+        caption=f"Differences from the reference values in {check['reference']}",
         columns=(
             *headings(["verdict"]),
             *headings(["task", "case", "entrant", "metric"], "text"),

@@ -42,8 +42,8 @@ def test_metrics_of_others_follow_those_of_the_page_where_they_were_scored(monke
     assert shown_metrics(TASK, scored[1:]) == TASK.page.metrics
     assert "theirs" in METRICS.names_of_others()
     assert "mse" not in METRICS.names_of_others()
-    (compared,) = run_changes(scored, scored, ("a", "b")).tasks
-    assert list(compared.metrics) == [*TASK.page.metrics, "theirs"]
+    (compared,) = run_changes(scored, scored, ("a", "b")).metrics.values()
+    assert list(compared) == [*TASK.page.metrics, "theirs"]
     rows = compare(scored[:1], [_record("nn", {"theirs": 4.0})], rope=0.0)
     assert {row.metric for row in rows if row.contrast.n} == {"theirs"}
 

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import pytest
 
-from mocapbench.reports import RegressionCheck, render
+from mocapbench.reports import render
 from mocapbench.reports.tables.check import LIMIT, check_table
 
 
@@ -16,7 +16,8 @@ PAIRED = {"n": 2, "reference": 1.0, "run": 1.25, "change": -0.25, "worst": 0.5, 
 
 def _check(*findings):
     passed = not any(finding["fails"] for finding in findings)
-    return RegressionCheck("base.csv", "1 worse; same environment", passed, findings)
+    summary = "1 worse; same environment"
+    return {"reference": "base.csv", "summary": summary, "passed": passed, "findings": findings}
 
 
 def test_failures_come_first_and_what_is_the_same_is_left_out():
