@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from vendor_tables import N, long_rows, motive, nexus, sleap
+from vendor_tables import N, long_rows, motive, nexus, opensim, sleap
 
 from mocapbench.datasets import CSVFormat, FormatError, FormatWarning, frame_rate
 
@@ -153,8 +153,29 @@ def test_missing_rows_of_programs_are_added_too(tmp_path, make):
     assert {*before} <= {*(tmp_path / "out.csv").read_bytes().splitlines()}
 
 
+@pytest.mark.filterwarnings("ignore:.*left out")
+def test_rows_are_added_also_where_nothing_is_filled(read, tmp_path):
+    walk = read(without(ROWS, 4, 5), kind=INSERTING)
+    none = np.zeros(walk.values.shape, dtype=bool)
+    INSERTING.write(tmp_path / "out.csv", walk, tmp_path / "walk.csv", none)
+    out = (tmp_path / "out.csv").read_text().splitlines()
+    assert out[5:7] == ["4,0.040,,", "5,0.050,,"]
+
+
+def test_rows_between_blanks_are_added_with_a_word_for_what_is_missing(tmp_path):
+    table, path = opensim(" "), tmp_path / "ik.mot"
+    lines = table.text.splitlines(keepends=True)
+    path.write_text("".join(lines[:30] + lines[31:]))
+    with warnings.catch_warnings(action="ignore"):  # the head has another count of rows
+        walk = INSERTING.load(path, None)
+        INSERTING.write(tmp_path / "out.mot", walk, path, np.zeros(walk.values.shape, dtype=bool))
+        again = CSV.load(tmp_path / "out.mot", None)
+    np.testing.assert_allclose(again.times, np.arange(N) / 100)
+    assert np.isnan(again.values[20]).all()
+
+
 def test_uneven_times_are_no_missing_rows(read):
-    times = np.cumsum(np.random.default_rng(0).uniform(0.01, 0.06, 50))
+    times = np.cumsum(np.random.default_rng(0).exponential(0.03, 50))
     text = "\n".join(["timestamp,hip", *(f"{time:.6f},1" for time in times)])
     with warnings.catch_warnings(action="error"):
         read(text)
@@ -234,6 +255,26 @@ def test_rows_that_nothing_tells_apart_are_refused(read, text, complaint):
 @pytest.mark.filterwarnings("ignore:.*left out")
 def test_a_rate_takes_the_place_of_times_that_were_rounded(read):
     assert len(read("time,hip,note\n0,1,a\n0,2,a\n0.1,3,b\n", rate=60.0).times) == 3
+
+
+@pytest.mark.filterwarnings("ignore:.*left out")
+def test_samples_within_a_frame_are_frames_if_their_times_rise(read):
+    walk = read("frame,time,side,hip\n0,0,a,1\n0,0.1,b,2\n1,0.2,a,3\n1,0.3,b,4\n")
+    assert walk.channels == ("hip",)
+    assert walk.times.tolist() == [0.0, 0.1, 0.2, 0.3]
+
+
+@pytest.mark.parametrize("track", ["", "7", "track_0"])
+@pytest.mark.filterwarnings("ignore:.*left out")
+def test_a_marker_or_person_that_is_the_same_in_all_rows_is_no_channel(read, track):
+    text = "\n".join(["track,frame_idx,nose.x", *(f"{track},{k},{k}.5" for k in range(4)), ""])
+    assert read(text, 30.0).channels == ("nose.x",)
+
+
+def test_notes_that_differ_in_each_row_tell_no_markers_apart(read):
+    rows = [f"{k // 2},n{k},1.5" for k in range(2000)]
+    with pytest.raises(FormatError, match="line 3: expected one row for each frame"):
+        read("\n".join(["frame,note,x", *rows, ""]), 30.0)
 
 
 # Likelihoods

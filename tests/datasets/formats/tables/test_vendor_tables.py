@@ -177,3 +177,22 @@ def test_lines_of_an_old_macintosh_are_lines(name, tmp_path):
     recording = CSV.load(path, None)
     assert recording.channels == table.channels
     np.testing.assert_allclose(recording.values, table.values)
+
+
+def test_points_of_deeplabcut_in_space_have_no_unit(tmp_path):
+    path = tmp_path / "space.csv"
+    path.write_text("scorer,s,s,s\nbodyparts,a,a,a\ncoords,x,y,z\n0,1,2,3\n1,1,2,3\n")
+    walk = CSV.read(path, 30.0)
+    assert (walk.channels, walk.units) == (("a.x", "a.y", "a.z"), ("",) * 3)
+
+
+def test_qualisys_may_count_frames_and_times_without_saying_so(tmp_path):
+    table = TABLES["qualisys"]
+    lines = table.text.splitlines(keepends=True)
+    start = len(lines) - len(TIMES)
+    rows = [f"{k + 1}\t{k / 100:.5f}\t{line}" for k, line in enumerate(lines[start:])]
+    path = tmp_path / table.name
+    path.write_text("".join([*lines[:start], *rows]), newline="")
+    walk = CSV.load(path, None)
+    assert walk.channels == table.channels
+    np.testing.assert_allclose(walk.values, table.values)
