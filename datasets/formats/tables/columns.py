@@ -21,7 +21,7 @@ __all__ = [
 
 _TIME = re.compile(
     r"""(?:(?:elapsed|relative|capture|recording|video|unix|epoch|system|camera|frame)[ _]?)?
-    (?:time(?:[ _]?stamp)?s?|t|sec(?:ond)?s?)
+    (?:time(?:[ _]?stamp)?s?|t|sec(?:ond)?s?|tiempo|temps|zeit)
     (?:[ _]*[\[(]?\s*(s|sec|secs|seconds?|ms|msec|milliseconds?|[uµμ]s|microseconds?|ns|
     nanoseconds?)\s*[\])]?)?""",
     re.VERBOSE,

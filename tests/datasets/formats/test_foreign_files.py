@@ -146,3 +146,16 @@ def test_angles_exported_by_isen(samples, tmp_path):
         for row, other in zip(before, after, strict=True)
         for one, two in zip(row, other, strict=True)
     )
+
+
+def test_a_table_of_nexus_has_the_positions_of_the_c3d_file(samples, jump):
+    """The table has blocks of devices, joints, results of models and trajectories."""
+    table = CSVFormat().read((samples / VICON).with_suffix(".csv"))
+    _, positions, _, _ = jump
+    seen = table.visible.all(axis=0)
+    shown = [name for name, whole in zip(table.channels, seen, strict=True) if whole]
+    assert len(shown) == 54  # the table lacks markers that were reconstructed later
+    assert {*table.units} == {"mm"}
+    theirs = positions.select([name.removeprefix("S03:") for name in shown])
+    np.testing.assert_allclose(table.times, theirs.times, atol=1e-9)
+    np.testing.assert_allclose(table.select(shown).values, theirs.values, atol=1e-4)

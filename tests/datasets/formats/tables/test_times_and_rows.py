@@ -32,7 +32,10 @@ def steps(name, step, start=0.0, n=6):
     ("name", "step", "start"),
     [
         *[(name, 0.01, 0.0) for name in ("Time (Seconds)", "time_s", "timestamp", "Time", "t")],
-        *[(name, 0.01, 7.5) for name in ("TIME [s]", "Time Stamp", "elapsed_time", "seconds")],
+        *[
+            (name, 0.01, 7.5)
+            for name in ("TIME [s]", "Time Stamp", "elapsed_time", "seconds", "Tiempo")
+        ],
         ("timestamp", 0.01, 1.7e9),
         *[(name, 10.0, 0.0) for name in ("time_ms", "Time (ms)", "timestamp [msec]")],
         ("time_ms", 0.5, 0.0),
