@@ -45,7 +45,7 @@ def test_a_model_that_takes_all_memory_is_stopped(attempts):
     assert "GiB of memory" in hungry.failure
 
 
-def test_models_fill_with_calibrated_variances_and_are_compared_without(attempts):
+def test_a_model_fills_with_calibrated_variances_unless_it_is_named_otherwise(attempts):
     calibrated, plain = attempts("lds", "lds-uncalibrated")
     np.testing.assert_array_equal(calibrated.prediction.mean, plain.prediction.mean)
     assert (calibrated.prediction.variance != plain.prediction.variance).any()
