@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines.gpdm.dynamics import Dynamics, Static
-from mocapbench.baselines.gpdm.estimator import LatentVariableModel
+from mocapbench.baselines.gpdm.latent_variable_model import LatentVariableModel
 from mocapbench.baselines.gpdm.learning import Learning, MaximumAPosteriori
 
 __all__ = ["GPLVM"]

@@ -20,12 +20,6 @@ LISTS = {
     "baselines/alignment": 17,
 }
 
-NAMESAKES = {
-    # Users import both.
-    "Motion": ["datasets/acclaim/motion", "reports/bundle/motions"],
-}
-"""Names that unlike classes keep, and the modules of these."""
-
 
 def holding_modules():
     """Return the folders that hold modules, as paths below the root."""
@@ -74,7 +68,7 @@ def test_no_package_exports_a_name_that_a_module_of_its_own_has(stub):
 
 def test_unlike_classes_do_not_share_a_name():
     shared = {name: homes for name, homes in class_homes().items() if len(homes) > 1}
-    assert shared == {name: sorted(homes) for name, homes in NAMESAKES.items()}
+    assert shared == {}
 
 
 def test_every_path_that_the_page_names_exists():

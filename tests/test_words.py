@@ -109,19 +109,16 @@ EXCEPTIONS = {
     "sources": {
         r"baselines/(?:best_of|choosing/weights)\.py": "where evidence comes from",
     },
-    "panel": {r"benchmark/cli/commands\.py": "frames that typer draws around its help"},
+    "panel": {
+        r"benchmark/cli/commands\.py": "frames that typer draws around its help",
+        r"(?:reports|benchmark)/figures/.*|reports/bundle/task_page\.py": "one drawing of several that stand side by side",
+    },
+    "band": {
+        r"reports/(?:bundle/pictures|figures/.*)\.(?:py|j2)": "the shaded area that draws an interval",
+    },
+    "informed": {r"reports/.*": "coordinates in space, which are drawn on equal scales"},
 }
 """A word, where it has its usual meaning, and what it means there."""
-
-PICTURES = "the renaming of Panel and Band in reports"
-
-PENDING = {
-    "band": {r"reports/.*|docs/api/reports\.rst": PICTURES},
-    "turn": {r"baselines/gpdm/two_stage\.py": "the GPDM in fewer modules"},
-    "panel": {r"reports/.*|benchmark/figures/.*|docs/api/reports\.rst": PICTURES},
-    "informed": {r"reports/.*": PICTURES},
-}
-"""Still to be renamed by others: delete a line once the work that it names is merged."""
 
 
 class Place(NamedTuple):
@@ -279,7 +276,7 @@ def test_a_word_that_the_glossary_dropped_stays_away(word):
     uses = [
         f"{path}:{line}: {text[:160]}"
         for path, line, text in find_uses(word)
-        if not is_excepted(word, path, EXCEPTIONS) and not is_excepted(word, path, PENDING)
+        if not is_excepted(word, path, EXCEPTIONS)
     ]
     assert uses == [], f"instead of {word}, write: {DROPPED[word].write}"
 
@@ -311,13 +308,6 @@ SAME_NAME = {
 }
 """Names that modules of sibling packages may share, and what they hold everywhere."""
 COMMANDS = "benchmark/cli"  # a module here is called like the command, which is named for users
-PENDING_NAMES = {
-    ("baselines", "estimator"),
-    ("baselines", "leave_one_out"),
-    ("reports", "contrasts"),
-    ("reports", "negative_control"),
-    ("reports", "page"),
-}
 """Still to be renamed by others, each with the folder above: delete a line once that is merged."""
 
 
@@ -328,7 +318,7 @@ def test_no_two_modules_of_sibling_packages_share_a_name():
         if module.stem not in {"__init__", *SAME_NAME} and module.parent.as_posix() != COMMANDS:
             folders[module.parent.parent.as_posix(), module.stem].append(module.parent.name)
     shared = {key: packages for key, packages in folders.items() if len(packages) > 1}
-    assert {key: packages for key, packages in shared.items() if key not in PENDING_NAMES} == {}
+    assert shared == {}
 
 
 VERBS = {
@@ -347,11 +337,6 @@ ORDERED_BY_OTHERS = {
     r"benchmark/testing/\w+\.py": "a law of a model, which is the subject: it fills any mask",
 }
 """Functions that return nothing and need not begin with a verb in the infinitive."""
-PENDING_FUNCTIONS = {
-    "_beaten",
-    "_mostly_numeric",
-    "_unbroken",
-}
 """Predicates still to be renamed by others: delete a line once their work is merged."""
 MOST_NOUNS = 0.34  # of all functions; it was .33 when this was written, and may only fall
 QUANTITY = re.compile(
@@ -445,10 +430,7 @@ def test_a_function_that_returns_true_or_false_is_a_predicate():
     wrong = [
         f"{path}: {name}"
         for path, name, returned in find_functions()
-        if returned == "bool"
-        and not is_predicate(name)
-        and not begins_with_a_verb(name)
-        and name not in PENDING_FUNCTIONS
+        if returned == "bool" and not is_predicate(name) and not begins_with_a_verb(name)
     ]
     assert wrong == []
 

@@ -6,6 +6,6 @@
 * `held_out_recordings`: training recordings that take the place of the one to fill;
 * `error_ratios`: by how much squared errors exceed predicted variances;
 * `variance_check`: what held-out gaps say of the variances of a recording;
-* `leave_one_out`: what its visible entries say, each predicted from all others;
+* `left_out_entries`: what its visible entries say, each predicted from all others;
 * `ways`: from both to calibrated predictions, in the way that suits the model.
 """

@@ -243,9 +243,9 @@ def _outer_starts(blocked: NDArray[np.bool_], length: int) -> NDArray[np.intp]:
     """Return where the first and the last free frames begin that have a free one on one side."""
     free = np.flatnonzero(~blocked)
     first, last = free[: length + 1], free[-(length + 1) :]
-    starts = [run[side] for side, run in enumerate((first, last)) if _unbroken(run, length + 1)]
+    starts = [run[side] for side, run in enumerate((first, last)) if _is_unbroken(run, length + 1)]
     return np.array(starts, dtype=np.intp)
 
 
-def _unbroken(frames: NDArray[np.intp], length: int) -> bool:
+def _is_unbroken(frames: NDArray[np.intp], length: int) -> bool:
     return len(frames) == length and int(np.ptp(frames)) == length - 1

@@ -27,7 +27,7 @@ from sklearn.base import clone
 from mocapbench.baselines.calibration.error_ratios import LEAST, mean_ratios, sum_ratios
 from mocapbench.baselines.calibration.held_out_gaps import hold_out_channels, long_copies
 from mocapbench.baselines.calibration.held_out_recordings import sum_ratios_elsewhere
-from mocapbench.baselines.calibration.leave_one_out import leave_one_out_factors
+from mocapbench.baselines.calibration.left_out_entries import leave_one_out_factors
 from mocapbench.baselines.calibration.variance_check import VarianceCheck
 from mocapbench.baselines.common.checks import pool
 from mocapbench.baselines.protocols import FrameImputer, Prediction

@@ -12,5 +12,5 @@ Dynamical Models for Human Motion*, IEEE TPAMI 30(2), cited as GPDM. One idea a 
 * `conditional`: the density of a further sequence; `starts`: where its optimisation starts;
 * `rollout`: new trajectories; `synthesis`: new recordings from them;
 * `sequences`: training recordings as the models take them;
-* `estimator`: the common estimator; `model`: the GPDM itself.
+* `latent_variable_model`: the common estimator; `model`: the GPDM itself.
 """

@@ -14,8 +14,8 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_rates
 from mocapbench.baselines.common.validation import check_count, check_sampling, check_seed
-from mocapbench.baselines.gpdm.estimator import LatentVariableModel
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
+from mocapbench.baselines.gpdm.latent_variable_model import LatentVariableModel
 from mocapbench.baselines.gpdm.rollout import fair_trajectories, mean_trajectory
 from mocapbench.baselines.protocols import Dynamical, SampleByFrameByChannel, Synthesiser
 from mocapbench.basics.arrays import Array

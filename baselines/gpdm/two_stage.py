@@ -35,7 +35,7 @@ class TwoStage(Learning):
     ----------
     sampler : HybridMonteCarlo
         The paper draws R = 50 samples after 10 discarded ones, with 100 leapfrog steps each.
-    n_rounds, n_turns, n_steps : int
+    n_rounds, n_alternations, n_steps : int
         The paper's I, J and K: rounds of EM; within an M-step, alternations between the scales in
         closed form and the other parameters; and iterations of L-BFGS on the latter.
     n_last : int
@@ -44,7 +44,7 @@ class TwoStage(Learning):
 
     sampler: HybridMonteCarlo
     n_rounds: int
-    n_turns: int
+    n_alternations: int
     n_steps: int
     n_last: int
 
@@ -84,7 +84,7 @@ class TwoStage(Learning):
             _, by_alpha, by_beta = zip(*gradients, strict=True)
             return float(np.mean(values)), [np.mean(by_alpha, axis=0), np.mean(by_beta, axis=0)]
 
-        for _ in range(self.n_turns):
+        for _ in range(self.n_alternations):
             inverse = np.mean([posterior.inverse(x, estimate.beta) for x in samples], axis=0)
             estimate = replace(estimate, scales=posterior.best_scales(inverse))
             alpha, beta = descend(objective, (estimate.alpha, estimate.beta), self.n_steps)

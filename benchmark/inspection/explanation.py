@@ -16,7 +16,7 @@ from mocapbench.benchmark.runs.key_parts import DIGEST
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["Change", "Explanation", "Step", "changes", "explain", "in_words"]
+__all__ = ["Explanation", "PartChange", "Step", "changes", "explain", "in_words"]
 
 _KINDS = ("metric", "parameter", "recording", "reference recording")
 """Of which a key may have many."""
@@ -24,7 +24,7 @@ _MANY = 3
 """Changes of one kind beyond which they are counted."""
 
 
-class Change(NamedTuple):
+class PartChange(NamedTuple):
     """A part of a key that is not as it was; empty where there is none."""
 
     part: str
@@ -49,18 +49,18 @@ class Change(NamedTuple):
         return f"{self.part}{self.verb} {' → '.join(values)}"
 
 
-def changes(before: Mapping[str, str], after: Mapping[str, str]) -> tuple[Change, ...]:
+def changes(before: Mapping[str, str], after: Mapping[str, str]) -> tuple[PartChange, ...]:
     """Return what differs between the parts of two keys, by name."""
     return tuple(
-        Change(name, before.get(name, ""), after.get(name, ""))
+        PartChange(name, before.get(name, ""), after.get(name, ""))
         for name in {**before, **after}
         if before.get(name) != after.get(name)
     )
 
 
-def in_words(several: Iterable[Change]) -> str:
+def in_words(several: Iterable[PartChange]) -> str:
     """Return changes in words; many alike are counted."""
-    alike: dict[tuple[str, str], list[Change]] = defaultdict(list)
+    alike: dict[tuple[str, str], list[PartChange]] = defaultdict(list)
     for change in several:
         alike[_kind(change), change.verb].append(change)
     texts = (
@@ -70,7 +70,7 @@ def in_words(several: Iterable[Change]) -> str:
     return ", ".join(chain.from_iterable(texts))
 
 
-def _kind(change: Change) -> str:
+def _kind(change: PartChange) -> str:
     """Return of what kind a part is: the part of one metric is called ``metric NAME``."""
     return next((kind for kind in _KINDS if change.part.startswith(f"{kind} ")), change.part)
 
@@ -99,14 +99,14 @@ class Explanation:
     step : Step
     cause : str
         In words.
-    changes : tuple of Change
+    changes : tuple of PartChange
         What is new in its key, if the run directory has a record of the same row.
     """
 
     address: Address
     step: Step
     cause: str
-    changes: tuple[Change, ...] = ()
+    changes: tuple[PartChange, ...] = ()
 
 
 def explain(jobs: Sequence[Job], out: Path) -> list[Explanation]:

@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from rich.table import Column, Table
 
 from mocapbench.basics.words import format_count
-from mocapbench.benchmark.inspection.explanation import Change, Explanation, Step, in_words
+from mocapbench.benchmark.inspection.explanation import Explanation, PartChange, Step, in_words
 from mocapbench.benchmark.inspection.state import RunState
 from mocapbench.benchmark.runs import progress
 from mocapbench.benchmark.runs.key_parts import DIGEST
@@ -49,14 +49,14 @@ def _summary(explanations: Sequence[Explanation]) -> str:
     return f"{format_count(len(explanations), 'job')}: {parts}"
 
 
-def _common(several: Sequence[Sequence[Change]]) -> Iterator[Change]:
+def _common(several: Sequence[Sequence[PartChange]]) -> Iterator[PartChange]:
     """Yield the changes that all have, with those values that are the same for all."""
     for changes in zip(*several, strict=True):
         before, after = (
             values.pop() if len(values) == 1 else _DIFFERENT
             for values in ({c.before for c in changes}, {c.after for c in changes})
         )
-        yield Change(changes[0].part, before, after)
+        yield PartChange(changes[0].part, before, after)
 
 
 def state_table(tasks: Mapping[str, Counter[str]], total: Counter[str]) -> Table:

@@ -247,7 +247,7 @@ def _cell(
     if not own.complete:
         return BoardCell(text, mean, INCOMPLETE, link=link, note=f"{INCOMPLETE} ({lacking})")
     reference = reference_of(results)
-    beaten = label != reference and _beaten(results, metric, label, reference)
+    beaten = label != reference and _is_beaten(results, metric, label, reference)
     return BoardCell(text, mean, _shade(results, metric, own, best), beaten, link, lacking)
 
 
@@ -258,7 +258,7 @@ def _lacking(own: Standing, best: Standing, n_cases: int) -> str:
     return "" if own.complete else f"{own.n_folds} of {best.n_folds} folds"
 
 
-def _beaten(results: TaskResults, metric: str, label: str, reference: str | None) -> bool:
+def _is_beaten(results: TaskResults, metric: str, label: str, reference: str | None) -> bool:
     """Return whether a label is no better than the reference."""
     if reference is None:
         return False

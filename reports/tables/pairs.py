@@ -64,10 +64,10 @@ def _cell(contrast: PairContrast | None, places: int) -> Cell:
     side = "ahead" if contrast.advantage > 0.0 else "behind"
     return Cell(
         number(contrast.advantage, places),
-        note=_unbroken(f"{low} to {high}"),
+        note=_join_with_hard_spaces(f"{low} to {high}"),
         kind=f"contrast {side}" if contrast.separable else "contrast",
     )
 
 
-def _unbroken(text: str) -> str:
+def _join_with_hard_spaces(text: str) -> str:
     return text.replace(" ", "\N{NO-BREAK SPACE}")

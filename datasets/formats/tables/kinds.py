@@ -23,7 +23,7 @@ def are_numbers(table: TextTable) -> list[bool]:
         row = table.row(index)
         for column in unsure:
             different[column].add(row[column])
-    text = {column for column in unsure if not _mostly_numeric(different[column])}
+    text = {column for column in unsure if not _is_mostly_numeric(different[column])}
     return [column not in text for column in range(table.width)]
 
 
@@ -38,6 +38,6 @@ def first_cells(table: TextTable) -> dict[int, str]:
     return first
 
 
-def _mostly_numeric(cells: Iterable[str]) -> bool:
+def _is_mostly_numeric(cells: Iterable[str]) -> bool:
     numeric = [looks_numeric(cell) for cell in cells if not is_missing(cell)]
     return 2 * sum(numeric) >= len(numeric)

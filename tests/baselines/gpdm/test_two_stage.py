@@ -12,7 +12,7 @@ from .conftest import objective
 @pytest.fixture
 def learning():
     sampler = HybridMonteCarlo(n_samples=3, n_burn=1, n_leaps=3, step=3e-3)
-    return TwoStage(sampler, n_rounds=1, n_turns=1, n_steps=3, n_last=5)
+    return TwoStage(sampler, n_rounds=1, n_alternations=1, n_steps=3, n_last=5)
 
 
 def test_learning_lowers_the_objective(learning, posterior, start):

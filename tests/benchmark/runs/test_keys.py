@@ -152,7 +152,7 @@ FIT_PATH = [
     ("baselines.calibration.error_ratios", "toy-interpolation-1", "mohgp"),
     ("baselines.calibration.held_out_gaps", "missing-frames", "lds"),
     ("baselines.calibration.held_out_recordings", "subject-35-missing", "channel-kriging"),
-    ("baselines.calibration.leave_one_out", "toy-interpolation-1", "mohgp"),
+    ("baselines.calibration.left_out_entries", "toy-interpolation-1", "mohgp"),
     ("baselines.calibration.variance_check", "missing-frames", "lds"),
     ("baselines.calibration.ways", "missing-frames", "lds"),
     ("baselines.common.checks", "toy-interpolation-1", "trivial"),

@@ -11,7 +11,7 @@ from scipy.signal import lfilter
 from sklearn.exceptions import NotFittedError
 
 from mocapbench.baselines.calibrated import Calibrated
-from mocapbench.baselines.calibration.leave_one_out import leave_one_out_factors
+from mocapbench.baselines.calibration.left_out_entries import leave_one_out_factors
 from mocapbench.baselines.gp.prior.kernels import KERNELS
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.solvers.planner import PLANS
