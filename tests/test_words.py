@@ -111,10 +111,10 @@ EXCEPTIONS = {
     },
     "panel": {
         r"benchmark/cli/commands\.py": "frames that typer draws around its help",
-        r"(?:reports|benchmark)/figures/.*|reports/bundle/task_page\.py": "one drawing of several that stand side by side",
+        r"(?:reports|benchmark)/figures/.*|reports/bundle/task_page\.py": "one drawing of several",
     },
     "band": {
-        r"reports/(?:bundle/pictures|figures/.*)\.(?:py|j2)": "the shaded area that draws an interval",
+        r"reports/(?:bundle/pictures|figures/.*)\.(?:py|j2)": "the shaded area of an interval",
     },
     "informed": {r"reports/.*": "coordinates in space, which are drawn on equal scales"},
 }

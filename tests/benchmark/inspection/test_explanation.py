@@ -6,7 +6,7 @@ import importlib.metadata
 import pytest
 
 from mocapbench.benchmark.archives import archive_at
-from mocapbench.benchmark.inspection.explanation import Change, Step, explain
+from mocapbench.benchmark.inspection.explanation import PartChange, Step, explain
 from mocapbench.benchmark.inspection.output import explanation_table
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, TASKS
@@ -309,9 +309,9 @@ def test_values_that_differ_within_a_line_are_not_shown(world):
     world.run()
     items = explain(world.jobs(), world.out)
     values = [
-        dataclasses.replace(item, changes=(Change("p", "1", str(n)),))
+        dataclasses.replace(item, changes=(PartChange("p", "1", str(n)),))
         for n, item in enumerate(items)
     ]
     assert [*explanation_table(values).columns[4].cells] == ["done: p"]
-    same = [dataclasses.replace(i, changes=(Change("p", "1", "2"),)) for i in items]
+    same = [dataclasses.replace(i, changes=(PartChange("p", "1", "2"),)) for i in items]
     assert [*explanation_table(same).columns[4].cells] == ["done: p 1 → 2"]
