@@ -12,7 +12,7 @@ from pathlib import Path
 from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.acclaim.skeleton_reader import read_skeleton
-from mocapbench.datasets.gait_walker import STYLES, walk
+from mocapbench.datasets.gait_walker import walk
 from mocapbench.datasets.keys import split_key
 from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import Recording
@@ -70,7 +70,7 @@ class GaitLibrary(Library):
         """Return the motion; as Acclaim text it would have the same values."""
         subject, trial = map(int, split_key(key))
         skeleton = self.skeleton(key)
-        return walk(skeleton, STYLES[gait_style(key)], subject, trial)
+        return walk(skeleton, gait_style(key), subject, trial)
 
     def skeleton(self, key: str) -> Skeleton:
         """Return the skeleton, which all recordings share."""

@@ -16,7 +16,6 @@ mirrored.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from math import pi
 
 import numpy as np
@@ -27,7 +26,7 @@ from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.kinematics import FrameByJointBy3, joint_positions
 from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
 
-__all__ = ["STYLES", "Style", "walk"]
+__all__ = ["walk"]
 
 Curve = tuple[float, tuple[tuple[float, float], ...]]
 """Offset in degrees, and amplitude (degrees) and phase (radians) of each harmonic."""
@@ -79,46 +78,20 @@ CURVES: Mapping[str, Curve] = {
 }
 
 
-@dataclass(frozen=True)
-class Style:
-    """How a gait differs from ordinary walking.
+CADENCES = {"walk": 0.95, "slow walk": 0.75, "stride": 0.85, "run": 1.4}
+"""Cycles (two steps) per second of each style."""
 
-    Parameters
-    ----------
-    cadence : float
-        Cycles (two steps) per second.
-    legs, arms : float
-        Factors of the harmonics' amplitudes.
-    flight : float
-        Height of the jump between two steps, in the skeleton's unit of length.
-    offsets : mapping of str to float
-        Degrees added to the offset of a curve.
-    """
+SWINGS = {"slow walk": (0.8, 0.6), "stride": (1.3, 1.5), "run": (1.45, 1.6)}
+"""Factors of the amplitudes of legs and of arms, where a style differs from ordinary walking."""
 
-    cadence: float
-    legs: float = 1.0
-    arms: float = 1.0
-    flight: float = 0.0
-    offsets: Mapping[str, float] = field(default_factory=dict)
+FLIGHTS = {"run": 1.2}
+"""Height of the jump between two steps, in the skeleton's unit of length."""
 
-    def swing(self, curve: str) -> float:
-        """Return the factor of a curve's amplitudes, such as that of ``femur.rx``."""
-        segment = curve.partition(".")[0]
-        return self.legs if segment in LEGS else self.arms if segment in ARMS else 1.0
-
-
-STYLES: Mapping[str, Style] = {
-    "walk": Style(0.95),
-    "slow walk": Style(0.75, legs=0.8, arms=0.6),
-    "stride": Style(0.85, legs=1.3, arms=1.5, offsets={"tibia.rx": 6.0, "root.rx": 2.0}),
-    "run": Style(
-        1.4,
-        legs=1.45,
-        arms=1.6,
-        flight=1.2,
-        offsets={"tibia.rx": 14.0, "femur.rx": -8.0, "radius.rx": 55.0, "root.rx": 7.0},
-    ),
+OFFSETS = {
+    "stride": {"tibia.rx": 6.0, "root.rx": 2.0},
+    "run": {"tibia.rx": 14.0, "femur.rx": -8.0, "radius.rx": 55.0, "root.rx": 7.0},
 }
+"""Degrees that a style adds to the offset of a curve."""
 
 _SOLE = {"tibia": 0.7, "foot": 0.1, "toes": 0.1}
 """Height of a segment's end above the floor when the foot stands on it, in the skeleton's unit."""
@@ -126,21 +99,21 @@ _SOLE = {"tibia": 0.7, "foot": 0.1, "toes": 0.1}
 _ROOT_PATH = ("root.tx", "root.ty", "root.tz")
 
 
-def walk(skeleton: Skeleton, style: Style, subject: int, trial: int) -> Motion:
+def walk(skeleton: Skeleton, style: str, subject: int, trial: int) -> Motion:
     """Return the motion of one subject in one trial, 300 to 360 frames, at `FRAME_RATE`.
 
     Parameters
     ----------
     skeleton : Skeleton
         With the segments of the CMU database.
-    style : Style
-        The gait.
+    style : str
+        One of `CADENCES`.
     subject, trial : int
         Seeds of what varies between subjects and between trials.
     """
     habits, rng = np.random.default_rng([subject]), np.random.default_rng([subject, trial])
     n_frames = int(rng.integers(300, 361))
-    cadence = style.cadence * habits.normal(1.0, 0.06)
+    cadence = CADENCES[style] * habits.normal(1.0, 0.06)
     rate = 2 * pi * cadence / FRAME_RATE * (1 + 0.03 * _smooth(rng, n_frames, 60))
     phase = rng.uniform(0, 2 * pi) + np.cumsum(rate)
     channels = [f"{name}.{dof}" for name, dofs in skeleton.moving.items() for dof in dofs]
@@ -156,13 +129,13 @@ def walk(skeleton: Skeleton, style: Style, subject: int, trial: int) -> Motion:
 
 
 def _angle(
-    channel: str, phase: Frames, style: Style, habits: np.random.Generator, rng: np.random.Generator
+    channel: str, phase: Frames, style: str, habits: np.random.Generator, rng: np.random.Generator
 ) -> Frames:
     """Return the curve (N,) of one channel, in degrees; one without harmonics is constant."""
     name, lag, sign = _side(channel)
     offset, harmonics = CURVES[name]
-    posture = offset + style.offsets.get(name, 0.0) + habits.normal(0.0, 1.5)
-    swing = style.swing(name) * habits.normal(1.0, 0.08)
+    posture = offset + OFFSETS.get(style, {}).get(name, 0.0) + habits.normal(0.0, 1.5)
+    swing = _swing(name, style) * habits.normal(1.0, 0.08)
     lag += habits.normal(0.0, 0.08)
     if not harmonics:
         return np.full(len(phase), sign * posture)
@@ -170,6 +143,13 @@ def _angle(
     noise = 0.5 * _smooth(rng, len(phase), 12) + 0.15 * rng.standard_normal(len(phase))
     waves = [a * np.cos(k * (phase + lag) + p) for k, (a, p) in enumerate(harmonics, 1)]
     return np.asarray(sign * (posture + swing * drift * np.sum(waves, axis=0)) + noise)
+
+
+def _swing(curve: str, style: str) -> float:
+    """Return the factor of a curve's amplitudes, such as that of ``femur.rx``."""
+    legs, arms = SWINGS.get(style, (1.0, 1.0))
+    segment = curve.partition(".")[0]
+    return legs if segment in LEGS else arms if segment in ARMS else 1.0
 
 
 def _side(channel: str) -> tuple[str, float, float]:
@@ -182,14 +162,14 @@ def _side(channel: str) -> tuple[str, float, float]:
 
 
 def _root_path(
-    skeleton: Skeleton, curves: Mapping[str, Frames], phase: Frames, style: Style
+    skeleton: Skeleton, curves: Mapping[str, Frames], phase: Frames, style: str
 ) -> FrameByChannel:
     """Return the root's translation (N, 3) in the skeleton's unit of length."""
     soles = _soles(skeleton, curves)
     # The supporting foot does not slide: the root advances by as much as that foot recedes from it.
     balls = gaussian_filter1d(soles[:, 1::3, 2], 3, axis=0)
     pace = -np.gradient(balls, axis=0).min(axis=1)
-    flight = style.flight * np.clip(np.cos(2 * phase + 0.6), 0.0, None)
+    flight = FLIGHTS.get(style, 0.0) * np.clip(np.cos(2 * phase + 0.6), 0.0, None)
     height = flight - gaussian_filter1d(soles[..., 1].min(axis=1), 3)
     return np.column_stack([0.35 * np.sin(phase), height, np.cumsum(gaussian_filter1d(pace, 8))])
 
