@@ -105,7 +105,13 @@ folder.cleanup()
 import matplotlib.pyplot as plt
 import numpy as np
 
-from mocapbench.metrics.statistics import compare_ranks, holm_tests
+from mocapbench.metrics.statistics import (
+    friedman,
+    group_ranks,
+    holm_tests,
+    mean_ranks,
+    nemenyi,
+)
 
 rest = errors.columns[1:]
 behind = np.array([errors[label] - errors[best] for label in rest])
@@ -150,17 +156,15 @@ plt.show()
 # **Look at** the bars: each joins models that nobody can tell apart by
 # their ranks.
 
-ranks = compare_ranks(errors.to_numpy())
-for label, rank in zip(errors.columns, ranks.mean_ranks, strict=True):
+ranks, difference = mean_ranks(errors), nemenyi(*errors.shape)
+for label, rank in zip(errors.columns, ranks, strict=True):
     print(f"{label:16}mean rank {rank:.2f}")
-print(f"critical difference {ranks.difference:.2f}")
+print(f"critical difference {difference:.2f}")
 
 # sphinx_gallery_start_ignore
 figure, axis = plt.subplots(figsize=(6.4, 2.6), layout="constrained")
-axis.plot(
-    ranks.mean_ranks, np.zeros(len(errors.columns)), "o", color="C1"
-)
-for label, rank in zip(errors.columns, ranks.mean_ranks, strict=True):
+axis.plot(ranks, np.zeros(len(errors.columns)), "o", color="C1")
+for label, rank in zip(errors.columns, ranks, strict=True):
     axis.annotate(
         label,
         (rank, 0.0),
@@ -168,15 +172,16 @@ for label, rank in zip(errors.columns, ranks.mean_ranks, strict=True):
         textcoords="offset points",
         rotation=25,
     )
-for height, group in enumerate(ranks.groups, 1):
-    ends = [ranks.mean_ranks[model] for model in (group[0], group[-1])]
+groups = group_ranks(ranks, difference, friedman(errors))
+for height, group in enumerate(groups, 1):
+    ends = [ranks[model] for model in (group[0], group[-1])]
     axis.hlines(-0.3 * height, *ends, color="C0", lw=4)
 axis.set(
     xlim=(0.8, 5.4),
-    ylim=(-0.3 * len(ranks.groups) - 0.3, 1.4),
+    ylim=(-0.3 * len(groups) - 0.3, 1.4),
     yticks=[],
 )
-axis.set_xlabel(f"mean rank over {ranks.n} folds")
+axis.set_xlabel(f"mean rank over {len(errors)} folds")
 plt.show()
 # sphinx_gallery_end_ignore
 

@@ -14,7 +14,7 @@ from mocapbench.metrics.statistics.families import holm_tests, holm_tests_of_mea
 from mocapbench.metrics.statistics.means import FEWEST_UNITS, UnitMeans, too_few, unit_means
 from mocapbench.metrics.statistics.pairing import pair
 from mocapbench.metrics.statistics.posterior import correlated_t_test
-from mocapbench.metrics.statistics.ranking import RankComparison, compare_ranks, nemenyi
+from mocapbench.metrics.statistics.ranking import friedman, group_ranks, mean_ranks, nemenyi
 from mocapbench.metrics.statistics.signed_ranks import least_signed_rank_p, signed_rank_test
 
 __all__ = [
@@ -22,16 +22,17 @@ __all__ = [
     "FEWEST_UNITS",
     "ROPE",
     "Contrast",
-    "RankComparison",
     "UnitMeans",
-    "compare_ranks",
     "contrast",
     "correlated_t_test",
+    "friedman",
+    "group_ranks",
     "holm",
     "holm_tests",
     "holm_tests_of_means",
     "least_signed_rank_p",
     "mean_interval",
+    "mean_ranks",
     "nemenyi",
     "pair",
     "signed_rank_test",

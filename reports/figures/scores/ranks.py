@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 import pandas as pd
 
 from mocapbench.basics.words import format_count
-from mocapbench.metrics.statistics import RankComparison, compare_ranks
+from mocapbench.metrics.statistics import friedman, group_ranks, mean_ranks, nemenyi
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
 from mocapbench.reports.figures.scale import LinearScale
@@ -39,14 +39,18 @@ def rank_figure(losses: pd.DataFrame, title: str, styles: Mapping[str, DrawingSt
     """
     whole = losses.dropna(axis=1)
     left_out = [str(label) for label in losses.columns.difference(whole.columns, sort=False)]
-    ranks = compare_ranks(whole.to_numpy(float))
-    means = pd.Series(ranks.mean_ranks, whole.columns).sort_values(kind="stable")
-    groups = [[str(whole.columns[entrant]) for entrant in group] for group in ranks.groups]
-    over = f"over {format_count(ranks.n, str(losses.index.name))}"
+    ranks, difference = mean_ranks(whole), nemenyi(*whole.shape)
+    p_value = friedman(whole)
+    means = pd.Series(ranks, whole.columns).sort_values(kind="stable")
+    groups = [
+        [str(whole.columns[entrant]) for entrant in group]
+        for group in group_ranks(ranks, difference, p_value)
+    ]
+    over = f"over {format_count(len(whole), str(losses.index.name))}"
     label = f"{title}: mean ranks of {format_count(len(means), 'entrant')} {over}"
     marks = [text(0.0, 13.0, f"ranks {over}", "title"), *_marks(means, groups, styles)]
     drawing = svg(WIDTH, TOP + ROW * len(means) + BOTTOM, label, marks)
-    caption = f"mean ranks {over}. {_caption(ranks, groups)}"
+    caption = f"mean ranks {over}. {_caption(p_value, difference, groups)}"
     lacking = f" Left out, without every score: {', '.join(left_out)}." if left_out else ""
     return SvgFigure(title, panels([drawing]), (), caption + lacking)
 
@@ -83,10 +87,10 @@ def _row(style: DrawingStyle, number: int, mean: float, scale: LinearScale) -> s
     return row(style, number, *marks, title=f"{style.label}: mean rank {mean:.2f}")
 
 
-def _caption(ranks: RankComparison, groups: Sequence[Sequence[str]]) -> str:
+def _caption(p_value: float, difference: float, groups: Sequence[Sequence[str]]) -> str:
     named = "; ".join(map(", ".join, groups))
     together = f"Not separable, joined by a bar: {named}." if groups else "All are separable."
     return (
-        f"Friedman’s test of no difference: p = {ranks.p_value:.2g}; "
-        f"Nemenyi’s critical difference at 5 %: {ranks.difference:.2f} ranks. {together}"
+        f"Friedman’s test of no difference: p = {p_value:.2g}; "
+        f"Nemenyi’s critical difference at 5 %: {difference:.2f} ranks. {together}"
     )

@@ -2,7 +2,7 @@ import re
 
 import pytest
 
-from mocapbench.metrics.statistics import FEWEST_UNITS, compare_ranks, nemenyi
+from mocapbench.metrics.statistics import FEWEST_UNITS, mean_ranks, nemenyi
 from mocapbench.reports.analysis.ranks import ranks_over_units
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
@@ -23,14 +23,14 @@ def results_of(bundle):
 def test_ranks_run_over_units(small):
     ranks = ranks_over_units(results_of(small(ORDERED)), "mse")
     assert (list(ranks), ranks.index.name) == (["a", "b", "c"], "fold")
-    assert compare_ranks(ranks).mean_ranks == (1.0, 2.0, 3.0)
+    assert mean_ranks(ranks) == (1.0, 2.0, 3.0)
     assert len(ranks) == 8
 
 
 def test_ranks_follow_the_direction(small):
     values = {case: {"a": [0.1], "b": [0.5], "c": [0.8]} for case in "stuvwxyz"}
     ranks = ranks_over_units(results_of(small(values, metric="coverage_50")), "coverage_50")
-    assert compare_ranks(ranks).mean_ranks == (3.0, 1.0, 2.0)
+    assert mean_ranks(ranks) == (3.0, 1.0, 2.0)
 
 
 def test_an_entrant_without_a_score_in_every_case_is_left_out_and_named(small):
