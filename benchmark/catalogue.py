@@ -109,5 +109,5 @@ def format_entry(name: str) -> Mapping[str, Any]:
         "name": name,
         "summary": summary(kind),
         "suffixes": list(kind.suffixes),
-        "needs": f"mocapbench[{kind.needs.name}]" if kind.needs else "",
+        "needs": f"mocapbench[{kind.needs[1]}]" if kind.needs else "",
     }

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 from math import isfinite
 from pathlib import Path
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,16 +20,7 @@ from mocapbench.datasets.formats.memory import check_fits
 from mocapbench.datasets.formats.model_outputs import model_outputs
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
-__all__ = ["Extra", "Format"]
-
-
-class Extra(NamedTuple):
-    """What a format needs besides mocapbench."""
-
-    package: str
-    """The package that is imported."""
-    name: str
-    """The extra of mocapbench that brings it."""
+__all__ = ["Format"]
 
 
 class Format(ABC):
@@ -78,8 +69,8 @@ class Format(ABC):
 
     suffixes: ClassVar[tuple[str, ...]] = ()
     """In lower case, with the dot."""
-    needs: ClassVar[Extra | None] = None
-    """The extra that has to be installed."""
+    needs: ClassVar[tuple[str, str] | None] = None
+    """The package that is imported, and the extra of mocapbench that brings it."""
     memory_per_byte: ClassVar[float] = 16.0
     """Bytes of memory that reading takes for each byte of a file."""
 
@@ -194,7 +185,7 @@ class Format(ABC):
         """
         path = Path(path)
         self._check_suffix(path)
-        if self.needs is not None and find_spec(self.needs.package) is None:
+        if self.needs is not None and find_spec(self.needs[0]) is None:
             raise MissingExtraError(str(path), *self.needs)
         if rate is not None and not (isfinite(rate) and rate > 0):
             raise FormatError(str(path), "a positive rate", f"{rate:g}", "name frames per second")

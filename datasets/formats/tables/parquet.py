@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mocapbench.datasets.formats.base import Extra, Format
+from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import recording_of
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.isolation.calls import IsolatedCallError, call_isolated
@@ -37,7 +37,7 @@ class ParquetFormat(Format):
     """
 
     suffixes = (".parquet",)
-    needs = Extra("pyarrow", "parquet")
+    needs = ("pyarrow", "parquet")
     memory_per_byte = 24.0
 
     def load(self, path: Path, rate: float | None) -> Recording:
