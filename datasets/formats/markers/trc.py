@@ -9,7 +9,6 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import (
@@ -43,20 +42,20 @@ class TRCFormat(Format):
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""
-        parsed = _parse(path)
-        values = parsed.table.numbers(range(LEADING - 1, parsed.table.width))
-        _check_end(path.name, parsed, len(values))
-        _warn_of_counts(path.name, parsed, len(values))
+        head, markers, table = _parse(path)
+        values = table.numbers(range(LEADING - 1, table.width))
+        _check_end(table, head.count("NumFrames"), len(values))
+        _warn_of_counts(path.name, head, markers, len(values))
         times = values[:, 0] if rate is None else even_times(len(values), rate)
-        channels = marker_channels(parsed.markers)
-        units = [parsed.head.facts.get("Units", "")] * len(channels)
+        channels = marker_channels(markers)
+        units = [head.facts.get("Units", "")] * len(channels)
         recording = recording_of(path.name, times, values[:, 1:], channels, units)
         warn_of_missing_rows(recording)
         return recording
 
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's lines with the new coordinates."""
-        table = _parse(like).table
+        _, _, table = _parse(like)
         columns = range(LEADING, table.width)
         write_lines(path, table.with_numbers(columns, values, new), like)
 
@@ -70,22 +69,15 @@ class _SpacedTable(TextTable):
         return [k for k in super().rows if self.lines[k].strip()]
 
 
-class _Parsed(NamedTuple):
-    """The parts of a file."""
-
-    head: TRCHead
-    markers: Sequence[str]
-    table: TextTable
-
-
-def _parse(path: Path) -> _Parsed:
+def _parse(path: Path) -> tuple[TRCHead, Sequence[str], TextTable]:
+    """Return the head of a file, the names of its markers, and its rows."""
     lines = read_lines(path)
     head = parse_head(path.name, lines)
     table = _SpacedTable(path.name, lines, head.start, head.cells, LEADING, LEADING)
     widest = max((_n_used(head.cells.split(lines[k])) for k in table.rows), default=LEADING)
     markers = head.markers(path.name, max(widest - LEADING, 0))
     width, decimal = LEADING + 3 * len(markers), _decimal_mark(head.cells, table)
-    return _Parsed(head, markers, replace(table, width=width, decimal=decimal))
+    return head, markers, replace(table, width=width, decimal=decimal)
 
 
 def _n_used(cells: Sequence[str]) -> int:
@@ -104,25 +96,25 @@ def _decimal_mark(cells: CellSplitter, table: TextTable) -> str:
     return "." if "." in next(marked, ".") else ","
 
 
-def _check_end(file: str, parsed: _Parsed, n_frames: int) -> None:
+def _check_end(table: TextTable, stated: float | None, n_frames: int) -> None:
     """Refuse a last row that is cut off, where more rows are stated."""
-    table, stated = parsed.table, parsed.head.count("NumFrames")
     if n_frames < 2 or stated is None or n_frames >= stated:
         return
     before, last = table.rows[-2:]
     usual, n_cells = (len(table.cells.split(table.lines[k])) for k in (before, last))
     if n_cells < usual and not table.lines[last].endswith(("\r", "\n")):
         advice = "copy or export the file again, or delete this line"
-        raise FormatError(file, f"{usual} cells, as above", f"{n_cells} cells", advice, last + 1)
+        expected, got = f"{usual} cells, as above", f"{n_cells} cells"
+        raise FormatError(table.file, expected, got, advice, last + 1)
 
 
-def _warn_of_counts(file: str, parsed: _Parsed, n_frames: int) -> None:
+def _warn_of_counts(file: str, head: TRCHead, markers: Sequence[str], n_frames: int) -> None:
     """Warn of what the head says otherwise than the rows."""
-    n_markers, n_named = len(parsed.markers), sum(map(bool, parsed.markers))
+    n_markers, n_named = len(markers), sum(map(bool, markers))
     columns = f"columns of {n_markers}" + f", {n_named} with names" * (n_named < n_markers)
     found = {"NumFrames": (n_frames, f"{n_frames} rows"), "NumMarkers": (n_markers, columns)}
     for fact, (count, got) in found.items():
-        stated = parsed.head.count(fact)
+        stated = head.count(fact)
         if stated is not None and stated != count:
             warnings.warn(
                 f"{file}: expected {fact} to be {stated:g}, as line 3 says, got {got}, which are "
