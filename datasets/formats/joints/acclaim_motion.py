@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import degrees
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -54,13 +53,15 @@ class AcclaimFormat(Format):
         lines, moving = read_lines(like), self.skeleton(like).moving
         start = next(k for k, line in enumerate(lines) if line.strip()[:1] not in _OF_HEADER)
         unit = _ANGLE_UNITS[next(word for word in _words(lines[:start]) if word in _ANGLE_UNITS)]
-        places = _places(list(_words(lines[start + 1 : start + 1 + len(moving)])), moving)
-        stated = values / [unit if place.angular else 1.0 for place in places]
+        segments = list(_words(lines[start + 1 : start + 1 + len(moving)]))
+        dofs = [dof for name in segments for dof in moving[name]]
+        stated = values / [unit if dof.startswith("r") else 1.0 for dof in dofs]
+        places = _places(segments, moving)
         for frame, channel in np.argwhere(new).tolist():
-            place = places[channel]
-            line = start + frame * (1 + len(moving)) + 1 + place.segment
+            segment, word = places[channel]
+            line = start + frame * (1 + len(moving)) + 1 + segment
             number = format_number(stated[frame, channel])
-            lines[line] = Words().replace_cells(lines[line], {place.word: number})
+            lines[line] = Words().replace_cells(lines[line], {word: number})
         write_lines(path, lines, like)
 
     def skeleton(self, path: Path) -> Skeleton:
@@ -87,14 +88,6 @@ class AcclaimFormat(Format):
             raise _plain(error, advice) from error
 
 
-class _Place(NamedTuple):
-    """Where a channel stands in a frame: the line of its segment, and the word of that line."""
-
-    segment: int
-    word: int
-    angular: bool
-
-
 def _skeleton_file(path: Path) -> Path:
     """Return the skeleton of a motion in the same folder."""
     named = [path.with_suffix(".asf"), path.with_name(f"{path.stem.partition('_')[0]}.asf")]
@@ -119,10 +112,10 @@ def _words(lines: Sequence[str]) -> Iterator[str]:
     return (word for line in lines for word in line.split()[:1])
 
 
-def _places(segments: Sequence[str], moving: Mapping[str, Sequence[str]]) -> list[_Place]:
-    """Return where each channel stands, given the segments in the order of a frame."""
+def _places(segments: Sequence[str], moving: Mapping[str, Sequence[str]]) -> list[tuple[int, int]]:
+    """Return the line and the word of each channel, given the segments in the order of a frame."""
     return [
-        _Place(segment, word, dof.startswith("r"))
+        (segment, word)
         for segment, name in enumerate(segments)
-        for word, dof in enumerate(moving[name], 1)  # after the segment's name
+        for word, _ in enumerate(moving[name], 1)  # after the segment's name
     ]
