@@ -7,7 +7,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 
@@ -48,27 +47,17 @@ class BVHFormat(Format):
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""
-        head = _head(path.name, read_lines(path))
-        values = head.table.numbers(range(head.table.width))
-        _check_count(path.name, head.n_frames, len(values))
-        times = even_times(len(values), rate or 1.0 / head.frame_time)
-        return recording_of(path.name, times, values, head.channels, head.units)
+        channels, (n_frames, frame_time), table = _parse(path)
+        values = table.numbers(range(table.width))
+        _check_count(path.name, n_frames, len(values))
+        times = even_times(len(values), rate or 1.0 / frame_time)
+        names, units = [name for name, _ in channels], [unit for _, unit in channels]
+        return recording_of(path.name, times, values, names, units)
 
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's lines with the new numbers."""
-        table = _head(like.name, read_lines(like)).table
+        _, _, table = _parse(like)
         write_lines(path, table.with_numbers(range(table.width), values, new), like)
-
-
-@dataclass(frozen=True)
-class _Head:
-    """What stands before the frames, and where these are."""
-
-    channels: Sequence[str]
-    units: Sequence[str]
-    n_frames: float
-    frame_time: float
-    table: TextTable
 
 
 class _Lines:
@@ -91,14 +80,14 @@ class _Lines:
         return FormatError(self.file, expected, got, advice, self.index + 1)
 
 
-def _head(file: str, text: Sequence[str]) -> _Head:
-    lines = _Lines(file, text)
-    named = list(_hierarchy(lines))
-    n_frames = _positive(lines, "Frames:")
-    frame_time = _positive(lines, "Frame", "Time:")
-    table = TextTable(file, text, lines.index + 1, Words(), len(named), len(named))
-    units = [unit for _, unit in named]
-    return _Head([name for name, _ in named], units, n_frames, frame_time, table)
+def _parse(path: Path) -> tuple[list[tuple[str, str]], tuple[float, float], TextTable]:
+    """Return names and units of the channels, number and time of frames as stated, and the rows."""
+    text = read_lines(path)
+    lines = _Lines(path.name, text)
+    channels = list(_hierarchy(lines))
+    stated = _positive(lines, "Frames:"), _positive(lines, "Frame", "Time:")
+    width = len(channels)
+    return channels, stated, TextTable(path.name, text, lines.index + 1, Words(), width, width)
 
 
 def _check_count(file: str, stated: float, n_rows: int) -> None:
