@@ -286,7 +286,7 @@ def _number_by_name(parameters: C3DParameters, name: str) -> list[tuple[str, flo
     Two words are one number, the low word first.
     """
     numbers = parameters.numbers(name)[:2]
-    if numbers and parameters.values[name].kind == WORD:
+    if numbers and parameters.values[name][0] == WORD:
         numbers = [sum(word * (_MOST + 1) ** place for place, word in enumerate(numbers))]
     return [(name, number) for number in numbers[:1] if isfinite(number)]
 

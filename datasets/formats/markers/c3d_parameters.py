@@ -20,7 +20,6 @@ from dataclasses import dataclass
 from itertools import count, takewhile
 from math import prod
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -35,19 +34,11 @@ BLOCK = 512
 _MAGIC = 0x50
 _MOST_BLOCKS = 255  # of parameters, as a byte counts them
 TEXT, BYTE, WORD, FLOAT = -1, 1, 2, 4
-"""Kinds of values."""
+"""Kinds of values: characters, or numbers of so many bytes."""
 
-
-class Values(NamedTuple):
-    """The values of a parameter, as they are stored."""
-
-    kind: int
-    """Bytes of a value, or −1 if it is a character."""
-    dimensions: tuple[int, ...]
-    data: memoryview
-
-
-_NOTHING = Values(BYTE, (), memoryview(b""))
+Values = tuple[int, tuple[int, ...], memoryview]
+"""The values of a parameter: of what kind they are, their dimensions, and what is stored."""
+_NOTHING: Values = (BYTE, (), memoryview(b""))
 
 
 @dataclass(frozen=True)
@@ -176,4 +167,4 @@ def _values_of(content: memoryview) -> Values:
     )
     first = 2 + max(n_dimensions, 0)
     dimensions = tuple(content[2:first])
-    return Values(kind, dimensions, content[first : first + abs(kind) * prod(dimensions)])
+    return kind, dimensions, content[first : first + abs(kind) * prod(dimensions)]
