@@ -37,7 +37,7 @@ def _whole_bodies(sheet: Sheet, new: Mask) -> Mask:
 
 def _change_rows(sheet: Sheet, values: FrameByChannel, new: Mask) -> list[str]:
     """Return the lines with the new cells of rows that there are."""
-    rows, columns = sheet.plan.rows, sheet.columns.channels
+    rows, columns = sheet.rows, sheet.columns.channels
     shape = (*rows.shape, len(columns))
     there = rows >= 0
     cells = np.zeros((len(sheet.table.rows), len(columns)))
@@ -49,7 +49,7 @@ def _change_rows(sheet: Sheet, values: FrameByChannel, new: Mask) -> list[str]:
 
 def _insert_rows(sheet: Sheet, values: FrameByChannel, new: Mask) -> dict[int, list[str]]:
     """Return lines to insert, by the row behind which they belong."""
-    rows, columns = sheet.plan.rows, sheet.columns.channels
+    rows, columns = sheet.rows, sheet.columns.channels
     shape = (*rows.shape, len(columns))
     values, new = values.reshape(shape), new.reshape(shape)
     places = np.where(rows.ravel() >= 0, np.arange(rows.size), 0)
@@ -63,7 +63,7 @@ def _insert_rows(sheet: Sheet, values: FrameByChannel, new: Mask) -> dict[int, l
                 for k, column in enumerate(columns)
                 if new[frame, group, k]
             }
-            line = _make_row(sheet, frame, before, {**cells, **sheet.plan.groups[group]})
+            line = _make_row(sheet, frame, before, {**cells, **sheet.groups[group]})
             inserted[before].append(line)
     return dict(inserted)
 
@@ -80,7 +80,7 @@ def _make_row(sheet: Sheet, frame: int, before: int, cells: Mapping[int, str]) -
 
 def _index_cell(sheet: Sheet, column: int, frame: int, before: int) -> str:
     """Return the cell with the frame or time of a frame, written as those of other rows."""
-    of_frame = sheet.plan.rows[frame].max()
+    of_frame = sheet.rows[frame].max()
     if of_frame >= 0:
         return sheet.table.row(sheet.table.rows[int(of_frame)])[column]
     like = sheet.table.row(sheet.table.rows[before])[column].strip()

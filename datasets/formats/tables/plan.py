@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,28 +26,9 @@ _SPARSE = 8
 _FEW = 100_000
 
 
-class RowPlan(NamedTuple):
-    """Where the entries of each frame are.
-
-    Parameters
-    ----------
-    rows : ndarray of int of shape (N, G)
-        The row of each frame and group of channels, −1 where there is none.
-    groups : tuple of G dict of int to str
-        The cells that tell the rows of a group from others, by their columns.
-    """
-
-    rows: NDArray[np.intp]
-    groups: tuple[Mapping[int, str], ...] = ({},)
-
-    def first_rows(self) -> NDArray[np.intp]:
-        """Return a row of each frame (N,), −1 where there is none."""
-        return np.asarray(self.rows.max(axis=1))
-
-    def with_lacking(self, lacking: NDArray[np.intp]) -> RowPlan:
-        """Return the plan with frames between others, of which there are no rows."""
-        behind = np.repeat(np.arange(1, len(self.rows)), lacking)
-        return self._replace(rows=np.insert(self.rows, behind, -1, axis=0))
+RowPlan = tuple[NDArray[np.intp], tuple[Mapping[int, str], ...]]
+"""The row of each frame and group of channels (N, G), −1 where there is none; and of each group,
+the cells that tell its rows from others, by their columns."""
 
 
 def is_key(name: str) -> bool:
@@ -58,7 +38,7 @@ def is_key(name: str) -> bool:
 
 def plan_wide(n_rows: int) -> RowPlan:
     """Return the plan of a table with one row a frame."""
-    return RowPlan(np.arange(n_rows)[:, np.newaxis])
+    return np.arange(n_rows)[:, np.newaxis], ({},)
 
 
 def plan_long(
@@ -95,7 +75,7 @@ def plan_long(
         rows[frame_of, group_of] = np.arange(len(index))
         if (rows >= 0).sum() == len(index):
             groups = tuple(dict(zip(columns, cell, strict=True)) for cell in codes)
-            return RowPlan(rows, groups)
+            return rows, groups
     raise _ambiguous(file, index, frame_of, keys, lines)
 
 

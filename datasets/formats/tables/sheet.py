@@ -52,8 +52,10 @@ class Sheet:
         What the columns are; C of them are channels.
     numbers : mapping of int to ndarray of shape (R,)
         The columns of numbers, NaN where a cell is missing.
-    plan : RowPlan
-        Which row has which frame, and which of G groups of channels.
+    rows : ndarray of int of shape (N, G)
+        Which row has which frame, and which of G groups of channels; −1 where none has.
+    groups : tuple of G mappings of int to str
+        The cells that tell the rows of a group from others, by their columns.
     """
 
     table: TextTable
@@ -61,11 +63,12 @@ class Sheet:
     head: Head
     columns: TableColumns
     numbers: Mapping[int, Frames]
-    plan: RowPlan
+    rows: NDArray[np.intp]
+    groups: tuple[Mapping[int, str], ...]
 
     def recording(self, rate: float | None) -> Recording:
         """Return the recording, at a rate in place of the times of the table if one is given."""
-        file, n_frames = self.table.file, len(self.plan.rows)
+        file, n_frames = self.table.file, len(self.rows)
         given = FrameTimes(
             file,
             self.index(self.columns.time),
@@ -78,7 +81,7 @@ class Sheet:
         for lost in self.lost_bodies():
             values[lost] = np.nan
         units = [self._label(column)[1] for column in self.columns.channels]
-        units *= len(self.plan.groups)
+        units *= len(self.groups)
         times = given.seconds(n_frames, rate)
         return recording_of(file, times, values, self._channels(), units)
 
@@ -99,7 +102,7 @@ class Sheet:
 
     def _channels(self) -> list[str]:
         names = [self._label(column)[0] for column in self.columns.channels]
-        return [f"{self._prefix(group)}{name}" for group in self.plan.groups for name in names]
+        return [f"{self._prefix(group)}{name}" for group in self.groups for name in names]
 
     def likelihoods(self) -> FrameByChannel:
         """Return how likely the table says each entry is (N, D), NaN where it does not say it."""
@@ -113,7 +116,7 @@ class Sheet:
         lacking = self.lacking()
         places = np.flatnonzero(lacking)
         if len(places):
-            line = self.table.rows[int(self.plan.rows[places[0]].max())] + 1
+            line = self.table.rows[int(self.rows[places[0]].max())] + 1
             n_rows, more = int(lacking.sum()), f" and {len(places) - 1} later places"
             are = "row is" if n_rows == 1 else "rows are"
             warnings.warn(
@@ -137,9 +140,9 @@ class Sheet:
             If they are so many that a time or a frame is probably wrong.
         """
         lacking = self.lacking()
-        most = _MOST_INSERTED * len(self.plan.rows)
+        most = _MOST_INSERTED * len(self.rows)
         if lacking.sum() > most:
-            row = int(self.plan.rows[lacking.argmax()].max())
+            row = int(self.rows[lacking.argmax()].max())
             raise FormatError(
                 self.table.file,
                 f"{most} rows or fewer to insert",
@@ -147,7 +150,8 @@ class Sheet:
                 "correct the frame or time",
                 self.table.rows[row] + 2,
             )
-        return replace(self, plan=self.plan.with_lacking(lacking))
+        behind = np.repeat(np.arange(1, len(self.rows)), lacking)
+        return replace(self, rows=np.insert(self.rows, behind, -1, axis=0))
 
     def _named_index(self) -> str:
         by = self.columns.frame if self.columns.frame is not None else self.columns.time
@@ -157,7 +161,7 @@ class Sheet:
         """Return the frames or times of the frames (N,), between others where there is no row."""
         if column is None:
             return None
-        rows = self.plan.rows.max(axis=1)
+        rows = self.rows.max(axis=1)
         there = np.flatnonzero(rows >= 0)
         values: Frames = self.numbers[column][rows[there]]
         return np.interp(np.arange(len(rows)), there, values) if len(there) < len(rows) else values
@@ -175,7 +179,7 @@ class Sheet:
 
     def _spread(self, columns: Sequence[int]) -> FrameByChannel:
         """Return the numbers of C columns as (N, G · C)."""
-        rows = self.plan.rows
+        rows = self.rows
         spread = np.full((*rows.shape, len(columns)), np.nan)
         for place, column in enumerate(columns):
             spread[..., place][rows >= 0] = self.numbers[column][rows[rows >= 0]]
@@ -216,12 +220,12 @@ def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
     wanted = sorted({*columns.channels, *columns.likelihoods.values(), *_index_columns(columns)})
     values = table.numbers(wanted)
     numbers = {column: values[:, place] for place, column in enumerate(wanted)}
-    plan, columns = _plan_rows(table, columns, numbers)
-    keys = {column for group in plan.groups for column in group}
+    (rows, groups), columns = _plan_rows(table, columns, numbers)
+    keys = {column for group in groups for column in group}
     if head.dialect is PLAIN:
         warn_of_text(file, [names[k] for k in columns.left_out if k not in keys])
     _compare_counts(file, head, len(values))
-    return Sheet(table, lines[head.stop :], head, columns, numbers, plan)
+    return Sheet(table, lines[head.stop :], head, columns, numbers, rows, groups)
 
 
 def _check_filled(file: str, head: Head, columns: TableColumns, n_rows: int) -> None:
@@ -275,10 +279,10 @@ def _plan_rows(
         apart = {k for k in keys if k in numbers and _is_constant(numbers[k])}
         channels = tuple(column for column in columns.channels if column not in apart)
         return plan_wide(len(table.rows)), columns._replace(channels=channels)
-    plan = plan_long(table.file, index[-1], _cells_of(table, keys), table.rows)
-    told = {column for group in plan.groups for column in group}
+    rows, groups = plan_long(table.file, index[-1], _cells_of(table, keys), table.rows)
+    told = {column for group in groups for column in group}
     channels = tuple(column for column in columns.channels if column not in told)
-    return plan, columns._replace(channels=channels)
+    return (rows, groups), columns._replace(channels=channels)
 
 
 def _cells_of(table: TextTable, columns: Sequence[int]) -> dict[int, list[str]]:
