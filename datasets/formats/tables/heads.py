@@ -16,12 +16,7 @@ from math import isfinite
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.tables.dialects import DIALECTS, PLAIN, Dialect, Place
 from mocapbench.datasets.formats.tables.header import check_lines, column_names
-from mocapbench.datasets.formats.tables.labels import (
-    HeadRows,
-    Label,
-    expand_parts,
-    label_columns,
-)
+from mocapbench.datasets.formats.tables.labels import Label, expand_parts, label_columns
 from mocapbench.datasets.formats.tables.notation import Notation, notation_of
 from mocapbench.datasets.formats.text.cells import CellSplitter, Parts
 
@@ -116,9 +111,11 @@ class _HeadLines:
         )
         cells = notation.cells
         axes = self._axes(cells, start)
-        places = (self.dialect.names, self.dialect.kinds, self.dialect.groups, self.dialect.units)
-        above = (self._cells(cells, place, len(axes)) for place in places)
-        labels = label_columns(self.dialect, HeadRows(axes, *above), self._fact)
+        others = {
+            name: self._cells(cells, getattr(self.dialect, name), len(axes))
+            for name in ("names", "kinds", "groups", "units")
+        }
+        labels = label_columns(self.dialect, {"axes": axes, **others}, self._fact)
         parted = expand_parts(labels, self._fact(self.dialect.parts))
         if len(parted) > len(labels):
             notation = notation._replace(cells=Parts(f"{notation.separator},"))

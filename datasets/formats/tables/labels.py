@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from mocapbench.datasets.formats.tables.columns import is_index, is_likelihood
 from mocapbench.datasets.formats.tables.dialects import Dialect
 
-__all__ = ["HeadRows", "Label", "expand_parts", "label_columns"]
+__all__ = ["Label", "expand_parts", "label_columns"]
 
 _LENGTH = frozenset({"x", "y", "z", "tx", "ty", "tz"})
 _ANGLE = frozenset({"rx", "ry", "rz", "roll", "pitch", "yaw"})
@@ -29,31 +29,27 @@ class Label(NamedTuple):
     """Whether it is neither a position nor an angle."""
 
 
-class HeadRows(NamedTuple):
-    """Cells of the lines of a head, each as long as the first or empty."""
-
-    axes: Sequence[str]
-    names: Sequence[str]
-    kinds: Sequence[str]
-    groups: Sequence[str]
-    units: Sequence[str]
+_Rows = Mapping[str, Sequence[str]]
 
 
-def label_columns(dialect: Dialect, rows: HeadRows, fact: Callable[[str], str]) -> list[Label]:
+def label_columns(dialect: Dialect, rows: _Rows, fact: Callable[[str], str]) -> list[Label]:
     """Return a label for each column.
 
     Parameters
     ----------
     dialect : Dialect
-    rows : HeadRows
+    rows : mapping of str to sequence of str
+        The cells of the lines with ``"axes"``, ``"names"``, ``"kinds"``, ``"groups"`` and
+        ``"units"``, for each column one, or none at all where there is no such line of the last
+        four.
     fact : callable
         From a pattern to what the head says, or nothing.
     """
     length = _unit(fact(dialect.length_by)) or dialect.length
     units = {"length": length, "angle": _unit(fact(dialect.angle_by)) or dialect.angle, "": ""}
     if dialect.sorts:
-        return [_label_whole_name(dialect, name, units) for name in rows.axes]
-    if units["length"] == "px" and "z" in rows.axes:
+        return [_label_whole_name(dialect, name, units) for name in rows["axes"]]
+    if units["length"] == "px" and "z" in rows["axes"]:
         units["length"] = ""  # positions in space, of which no unit is stated
     return _number_repetitions(_label_axes(rows, units))
 
@@ -83,19 +79,19 @@ def _label_whole_name(dialect: Dialect, name: str, units: dict[str, str]) -> Lab
     return Label(name, units[sort])
 
 
-def _label_axes(rows: HeadRows, units: dict[str, str]) -> list[Label]:
+def _label_axes(rows: _Rows, units: dict[str, str]) -> list[Label]:
     """Return labels of columns of which each has an axis, and a name or that of the one before."""
     names = _names_of_columns(rows)
-    kinds = rows.kinds or [""] * len(names)
-    bodies = list(zip(rows.groups or [""] * len(names), names, kinds, strict=True))
-    fourfold = {body for body, axis in zip(bodies, rows.axes, strict=True) if _axis(axis) == "w"}
+    kinds = rows["kinds"] or [""] * len(names)
+    bodies = list(zip(rows["groups"] or [""] * len(names), names, kinds, strict=True))
+    fourfold = {body for body, axis in zip(bodies, rows["axes"], strict=True) if _axis(axis) == "w"}
     labels = []
     for column, (group, name, kind) in enumerate(bodies):
-        axis = _suffix(_axis(rows.axes[column]), kind, (group, name, kind) in fourfold)
+        axis = _suffix(_axis(rows["axes"][column]), kind, (group, name, kind) in fourfold)
         sort = "length" if axis in _LENGTH else "angle" if axis in _ANGLE else ""
-        unit = rows.units[column] if rows.units else units[sort]
+        unit = rows["units"][column] if rows["units"] else units[sort]
         if not name:
-            labels.append(Label(rows.axes[column], left_alone=True))
+            labels.append(Label(rows["axes"][column], left_alone=True))
         elif sort or axis in _QUATERNION or is_likelihood(axis):
             labels.append(Label(".".join(filter(None, (group, name, axis))), unit))
         else:
@@ -103,12 +99,12 @@ def _label_axes(rows: HeadRows, units: dict[str, str]) -> list[Label]:
     return labels
 
 
-def _names_of_columns(rows: HeadRows) -> list[str]:
+def _names_of_columns(rows: _Rows) -> list[str]:
     """Return the name for each column; a cell without one has that before, unless it is a time."""
     found, name = [], ""
-    for column, cell in enumerate(rows.axes):
+    for column, cell in enumerate(rows["axes"]):
         both = _NAME_AND_AXIS.fullmatch(cell)
-        name = (rows.names[column] if rows.names else both[1] if both else "") or name
+        name = (rows["names"][column] if rows["names"] else both[1] if both else "") or name
         name = "" if is_index(cell) else name
         found.append(name)
     return found
