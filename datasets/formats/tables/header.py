@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mocapbench.datasets.formats.errors import FormatError
-from mocapbench.datasets.formats.tables.notation import Notation, notation_of
+from mocapbench.datasets.formats.tables.notation import notation_of
+from mocapbench.datasets.formats.text.cells import CellSplitter
 from mocapbench.datasets.formats.text.numbers import is_missing, looks_numeric
 
 __all__ = ["check_lines", "column_names"]
@@ -33,7 +34,7 @@ def check_lines(file: str, lines: Sequence[str]) -> None:
         raise FormatError(file, expected, got, "save it with other line ends", line=1)
 
 
-def column_names(file: str, lines: Sequence[str], notation: Notation) -> list[str]:
+def column_names(file: str, lines: Sequence[str], cells: CellSplitter) -> list[str]:
     """Return the names of the columns, which are in the first line.
 
     Raises
@@ -41,13 +42,12 @@ def column_names(file: str, lines: Sequence[str], notation: Notation) -> list[st
     FormatError
         If that line has something else, or the one below has more cells than there are names.
     """
-    cells = notation.cells
     names = [name.strip() for name in cells.split(lines[0])]
     below = cells.split(lines[1]) if len(lines) > 1 else []
     advice = _advise_on_first_line(lines, names, below)
     if advice:
         raise FormatError(file, _EXPECTED, _quote_line(lines[0]), advice, line=1)
-    if notation.separator == "," and len(names) < len(below) and all(map(looks_numeric, below)):
+    if cells.separator == "," and len(names) < len(below) and all(map(looks_numeric, below)):
         advice = (
             "if commas are decimal marks here, put semicolons between columns, else name every "
             "column in the first line"
@@ -85,7 +85,7 @@ def _find_names(lines: Sequence[str], width: int) -> int | None:
     as many cells below, most of them numbers.
     """
     for index in range(1, min(_DEEPEST, len(lines) - 1)):
-        cells = notation_of(lines[index : index + 2]).cells
+        cells, _ = notation_of(lines[index : index + 2])
         names, below = cells.split(lines[index]), cells.split(lines[index + 1])
         n_numbers = sum(map(looks_numeric, below))
         if len(names) == len(below) >= _LEAST and 2 * n_numbers > len(below):

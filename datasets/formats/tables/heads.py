@@ -64,7 +64,7 @@ def read_head(file: str, lines: Sequence[str]) -> Head:
     if dialect is not PLAIN:
         return _HeadLines(file, lines, dialect).head()
     notation = notation_of(lines)
-    labels = [Label(name) for name in column_names(file, lines, notation)]
+    labels = [Label(name) for name in column_names(file, lines, notation[0])]
     return Head(PLAIN, notation, 1, _end_of_rows(lines, 1), labels)
 
 
@@ -106,10 +106,8 @@ class _HeadLines:
         rows = range(self.last + 1, len(self.lines))
         start = next((k for k in rows if self.lines[k].strip(" \r\n")), len(self.lines))
         stop = self._stop(start)
-        notation = notation_of(
-            [self.lines[self._naming_line()], *self.lines[start:stop]], by_blanks=True
-        )
-        cells = notation.cells
+        naming = self.lines[self._naming_line()]
+        cells, decimal = notation_of([naming, *self.lines[start:stop]], by_blanks=True)
         axes = self._axes(cells, start)
         others = {
             name: self._cells(cells, getattr(self.dialect, name), len(axes))
@@ -118,9 +116,9 @@ class _HeadLines:
         labels = label_columns(self.dialect, {"axes": axes, **others}, self._fact)
         parted = expand_parts(labels, self._fact(self.dialect.parts))
         if len(parted) > len(labels):
-            notation = notation._replace(cells=Parts(f"{notation.separator},"))
+            cells = Parts(f"{cells.separator},")
         rate, n_rows = self._number(self.dialect.rate), self._number(self.dialect.rows)
-        return Head(self.dialect, notation, start, stop, parted, rate, n_rows)
+        return Head(self.dialect, (cells, decimal), start, stop, parted, rate, n_rows)
 
     def _first(self) -> int:
         """Return the line with which the block begins that is to be read."""

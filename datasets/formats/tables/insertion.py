@@ -73,7 +73,7 @@ def _make_row(sheet: Sheet, frame: int, before: int, cells: Mapping[int, str]) -
     table = sheet.table
     index = (sheet.columns.frame, sheet.columns.time)
     told = {k: _index_cell(sheet, k, frame, before) for k in index if k is not None}
-    missing = "" if sheet.head.notation.separator else "nan"
+    missing = "" if table.cells.separator else "nan"
     empty = dict.fromkeys(range(table.width), missing)
     return table.cells.replace_cells(table.lines[table.rows[before]], empty | told | dict(cells))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 from mocapbench.datasets.formats.text.cells import CellSplitter, Separated, Words
 from mocapbench.datasets.formats.text.numbers import looks_numeric
@@ -14,14 +13,8 @@ _SEPARATORS = ("\t", ";", ",")
 _POINT, _COMMA = ".", ","
 
 
-class Notation(NamedTuple):
-    """How a table is written."""
-
-    cells: CellSplitter
-    separator: str
-    """What is between columns; blanks where it is empty."""
-    decimal: str
-    """The decimal mark, a point or a comma."""
+Notation = tuple[CellSplitter, str]
+"""How cells are told apart, and the decimal mark, a point or a comma."""
 
 
 def notation_of(lines: Sequence[str], *, by_blanks: bool = False) -> Notation:
@@ -41,11 +34,11 @@ def notation_of(lines: Sequence[str], *, by_blanks: bool = False) -> Notation:
     separator = _separator(lines)
     cells = Separated(separator)
     if by_blanks and len(cells.split(lines[0])) == 1:
-        return Notation(Words(), "", _POINT)
+        return Words(), _POINT
     if separator == _COMMA:
-        return Notation(cells, separator, _POINT)
+        return cells, _POINT
     default = _COMMA if separator == ";" else _POINT
-    return Notation(cells, separator, next(_decimal_marks(cells, lines), default))
+    return cells, next(_decimal_marks(cells, lines), default)
 
 
 def _separator(lines: Sequence[str]) -> str:

@@ -211,7 +211,7 @@ def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
     while width > 1 and not names[width - 1] and head.dialect is not PLAIN:
         width -= 1  # a separator may end the line
     above = lines[: head.stop]
-    cells, decimal = head.notation.cells, head.notation.decimal
+    cells, decimal = head.notation
     table = TextTable(file, above, head.start, cells, width, width, decimal, names)
     is_number = are_numbers(table) if head.dialect is PLAIN else _are_labelled(table, head)
     left_alone = frozenset(k for k, label in enumerate(head.labels) if label.left_alone)

@@ -15,6 +15,10 @@ _ENDS = "\r\n"
 class CellSplitter(Protocol):
     """How the cells of a row are told apart."""
 
+    @property
+    def separator(self) -> str:
+        """What is between cells, or the characters that may be; blanks where it is empty."""
+
     def split(self, line: str) -> list[str]:
         """Return the cells of a line."""
 
@@ -65,20 +69,20 @@ class Parts:
 
     Parameters
     ----------
-    separators : str
+    separator : str
         Some characters.
     """
 
-    separators: str
+    separator: str
 
     def split(self, line: str) -> list[str]:
         """Return the cells of a line, whichever separators are between them."""
-        return re.split(f"[{re.escape(self.separators)}]", line.rstrip(_ENDS))
+        return re.split(f"[{re.escape(self.separator)}]", line.rstrip(_ENDS))
 
     def replace_cells(self, line: str, new: Mapping[int, str]) -> str:
         """Return the line with the cells of some indices replaced."""
         body = line.rstrip(_ENDS)
-        pieces = re.split(f"([{re.escape(self.separators)}])", body)  # every other one a separator
+        pieces = re.split(f"([{re.escape(self.separator)}])", body)  # every other one a separator
         for index, cell in new.items():
             pieces[2 * index] = cell
         return "".join(pieces) + line[len(body) :]
@@ -86,6 +90,8 @@ class Parts:
 
 class Words:
     """Cells between blanks."""
+
+    separator = ""
 
     def split(self, line: str) -> list[str]:
         """Return the words of a line."""

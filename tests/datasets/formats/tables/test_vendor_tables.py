@@ -78,7 +78,7 @@ def test_a_cell_too_many_too_few_and_a_word_in_a_number_are_named(table, tmp_pat
     place, split = sheet.table.rows[-1], sheet.table.cells
     lines = table.text.splitlines(keepends=True)
     cells = split.split(lines[place])
-    separator = sheet.head.notation.separator or " "
+    separator = split.separator or " "
     word = split.replace_cells(lines[place], {sheet.columns.channels[-1]: "1.2x"})
     many = lines[place].rstrip("\r\n") + separator.join(["", "7.5", "7.5", "7.5"]) + "\n"
     few = lines[place][: lines[place].rindex(cells[2]) - 1] + "\n"
