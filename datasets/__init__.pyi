@@ -9,7 +9,7 @@ from .digests import DigestMismatch, UnregisteredDigestWarning
 from .errors import FetchError, RecordingUnavailable, ServerUnreachable, SkeletonUnavailable
 from .features import THESIS_CHANNELS, gpdm_features, hlm_features
 from .formats.angle_wrapping import unwrap_angles
-from .formats.base import Extra, Format
+from .formats.base import Format
 from .formats.errors import FormatError, FormatWarning, MissingExtraError, TextColumnsWarning
 from .formats.joints.acclaim_motion import AcclaimFormat
 from .formats.joints.bvh import BVHFormat
@@ -54,7 +54,6 @@ __all__ = [
     "CMULibrary",
     "CSVFormat",
     "DigestMismatch",
-    "Extra",
     "FetchError",
     "Format",
     "FormatError",
