@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from shlex import join
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -55,6 +55,10 @@ def fill(
     max_gap: Annotated[
         float | None, typer.Option(min=0.0, help="Seconds; leave longer gaps open.")
     ] = None,
+    ends: Annotated[
+        Literal["open", "fill"],
+        typer.Option(help="Before a marker is first seen and after it is last seen: open or fill."),
+    ] = "open",
     budget: Annotated[
         float, typer.Option(min=1.0, help="Seconds to compare models on each file.")
     ] = 30.0,
@@ -83,7 +87,7 @@ def fill(
     """
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
-    entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap)
+    entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap, ends == "fill")
     reading = filling.Reading(rate, min_likelihood, insert_missing, choose_missing_rule(missing))
 
     def check(input_file: InputFile) -> None:

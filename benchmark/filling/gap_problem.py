@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mocapbench.basics.arrays import Array
-from mocapbench.benchmark.filling.gaps import find_gaps
+from mocapbench.benchmark.filling.gaps import find_gaps, mask_ends
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.unit import Unit
 from mocapbench.datasets import Mask, Recording
@@ -20,6 +20,7 @@ from mocapbench.datasets import Mask, Recording
 __all__ = [
     "GapProblem",
     "PredictedEntries",
+    "cut_blank_ends",
     "cut_windows",
     "drop_unseen",
     "pose_imputing",
@@ -94,6 +95,13 @@ def select_channels(problem: GapProblem, kept: Mask) -> GapProblem:
         for recording in (problem.given, *problem.train)
     )
     return GapProblem(given, problem.target[:, kept], tuple(train))
+
+
+def cut_blank_ends(problem: GapProblem) -> GapProblem:
+    """Return the problem without frames at its ends in which nothing is visible or wanted."""
+    needed = np.asarray(problem.given.visible.any(axis=1) | problem.target.any(axis=1))
+    kept = ~mask_ends(needed[:, np.newaxis])[:, 0]
+    return GapProblem(problem.given.frames(kept), problem.target[kept], problem.train)
 
 
 def cut_windows(problem: GapProblem, max_frames: int | None) -> list[tuple[slice, GapProblem]]:

@@ -1,4 +1,8 @@
-"""Gaps: runs of hidden entries, and those that occur together."""
+"""Gaps: runs of hidden entries, and those that occur together.
+
+Before a marker is first seen and after it is last seen, nobody knows where it was, or whether it
+was there: these are the ends of a recording.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +16,7 @@ import numpy as np
 from mocapbench.basics.gaps import run_bounds
 from mocapbench.datasets import Mask
 
-__all__ = ["Episode", "Gap", "find_gaps", "group_gaps", "mask_gaps"]
+__all__ = ["Episode", "Gap", "count_entries", "find_gaps", "group_gaps", "mask_ends", "mask_gaps"]
 
 
 @dataclass(frozen=True, order=True)
@@ -67,7 +71,7 @@ class Episode:
     @property
     def n_entries(self) -> int:
         """The number of hidden entries."""
-        return sum(len(gap) * len(gap.channels) for gap in self.gaps)
+        return count_entries(self.gaps)
 
     def move(self, frames: int) -> Self:
         """Return the episode so many frames later."""
@@ -86,6 +90,11 @@ class Episode:
         return replace(self, gaps=tuple(gaps))
 
 
+def count_entries(gaps: Iterable[Gap]) -> int:
+    """Return the number of hidden entries of gaps."""
+    return sum(len(gap) * len(gap.channels) for gap in gaps)
+
+
 def find_gaps(hidden: Mask) -> tuple[Gap, ...]:
     """Return the gaps of a mask (N, D), by their first frame; together they are the mask."""
     alike: dict[tuple[int, int], list[int]] = defaultdict(list)
@@ -101,6 +110,17 @@ def mask_gaps(gaps: Iterable[Gap], shape: tuple[int, ...]) -> Mask:
     for gap in gaps:
         hidden[gap.start : gap.stop, list(gap.channels)] = True
     return hidden
+
+
+def mask_ends(visible: Mask) -> Mask:
+    """Return the entries (N, D) before the first visible one of their channel or after the last.
+
+    A channel of which nothing is visible has no ends.
+    """
+    seen_before = np.logical_or.accumulate(visible, axis=0)
+    seen_after = np.logical_or.accumulate(visible[::-1], axis=0)[::-1]
+    ends: Mask = visible.any(axis=0) & ~(seen_before & seen_after)
+    return ends
 
 
 def group_gaps(gaps: Sequence[Gap]) -> tuple[Episode, ...]:

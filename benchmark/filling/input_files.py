@@ -9,7 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.gap_problem import GapProblem, select_channels
+from mocapbench.benchmark.filling.gap_problem import (
+    GapProblem,
+    cut_blank_ends,
+    select_channels,
+)
 from mocapbench.benchmark.filling.reading import Reading
 from mocapbench.benchmark.filling.requests.channels import match_channels
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
@@ -49,11 +53,12 @@ class InputFile:
         """What a model is to fill.
 
         It is without unlabelled markers and results of a model of the body of which nothing is to
-        be filled.
+        be filled, and without frames at the ends in which nothing else is visible.
         """
         request = self.request
         wanted = match_channels(request.given, None, request.results) | request.target.any(axis=0)
-        return select_channels(GapProblem(request.given, request.target, self.train), wanted)
+        problem = GapProblem(request.given, request.target, self.train)
+        return cut_blank_ends(select_channels(problem, wanted))
 
 
 def read_input_files(

@@ -11,8 +11,9 @@ from mocapbench.benchmark.errors import first_of
 from mocapbench.benchmark.filling.choosing.choice import Choice
 from mocapbench.benchmark.filling.choosing.ranking import Ranking
 from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.benchmark.filling.gaps import count_entries, mask_ends, mask_gaps
 from mocapbench.benchmark.filling.jumps import find_jumps
-from mocapbench.benchmark.filling.requests.names import name_markers
+from mocapbench.benchmark.filling.requests.names import name_hidden_markers, name_markers
 from mocapbench.benchmark.filling.requests.request import FillRequest
 
 __all__ = ["describe_choice", "describe_fill", "list_remarks"]
@@ -26,10 +27,12 @@ _FEW = 10
 
 
 def describe_fill(filled: FilledFile) -> str:
-    """Return which model filled how much."""
+    """Return which model filled how much, and how much is open at the ends."""
     request = filled.input_file.request
     entries = format_count(int(request.target.sum()), "entry", "entries")
-    return f"{filled.model} filled {entries} in {format_count(len(request.gaps), 'gap')}."
+    did = f"{filled.model} filled {entries} in {format_count(len(request.gaps), 'gap')}"
+    n_open = count_entries((*request.open_ends, *request.blank_ends))
+    return f"{did}, and left {n_open} open at the ends." if n_open else f"{did}."
 
 
 def describe_choice(filled: FilledFile) -> str:
@@ -137,6 +140,7 @@ def _name_one_with_intervals(filled: FilledFile) -> str:
 
 def _remark_on_hidden(request: FillRequest) -> Iterator[str]:
     """Yield how many gaps were left open, and how many entries stay hidden for other reasons."""
+    yield from _remark_on_ends(request)
     if request.left_open:
         were = format_count(len(request.left_open), "longer gap was", "longer gaps were")
         yield f"{were} left open."
@@ -148,10 +152,26 @@ def _remark_on_hidden(request: FillRequest) -> Iterator[str]:
         yield _describe_unknown(name_markers(request.unknown))
     told = [*request.unlabelled, *request.outputs, *request.unknown]
     others = ~np.isin(request.given.channels, told)
-    rest = int((~request.given.visible & ~request.target)[:, others].sum())
+    ends = mask_gaps((*request.open_ends, *request.blank_ends), request.target.shape)
+    rest = int((~request.given.visible & ~request.target & ~ends)[:, others].sum())
     if rest:
         stay = format_count(rest, "hidden entry stays", "hidden entries stay")
         yield f"{stay} hidden, since {'it was' if rest == 1 else 'they were'} not to be filled."
+
+
+def _remark_on_ends(request: FillRequest) -> Iterator[str]:
+    """Yield what stays open before it is first visible or after it is last visible."""
+    if request.open_ends:
+        markers = name_hidden_markers(request.given.channels, request.open_ends)
+        entries = format_count(count_entries(request.open_ends), "entry", "entries")
+        stay, them = ("stays", "it") if entries == "1 entry" else ("stay", "them")
+        yield (
+            f"Of {join_names(markers, _NAMED)}, {entries} before the first visible one or after "
+            f"the last {stay} open: --ends fill fills {them}, with larger errors."
+        )
+    if request.blank_ends:
+        frames = format_count(sum(map(len, request.blank_ends)), "frame")
+        yield f"Nothing is visible in {frames} at the beginning or the end, which stay open."
 
 
 def _describe_unlabelled(markers: Sequence[str]) -> str:
@@ -234,12 +254,11 @@ def _warn_of_replaced_values(request: FillRequest) -> Iterator[str]:
 
 def _warn_of_ends(request: FillRequest) -> Iterator[str]:
     """Yield how many gaps have frames on one side only, and of which channels they are."""
-    n_frames = len(request.given.times)
-    ends = [gap for gap in request.gaps if (gap.start == 0) != (gap.stop == n_frames)]
+    at_ends = mask_ends(request.given.visible)
+    ends = [gap for gap in request.gaps if at_ends[gap.start, list(gap.channels)].any()]
     if not ends:
         return
-    channels = sorted({channel for gap in ends for channel in gap.channels})
-    names = join_names(name_markers([request.given.channels[k] for k in channels]), _NAMED)
+    names = join_names(name_hidden_markers(request.given.channels, ends), _NAMED)
     are = "is" if len(ends) == 1 else "are"
     yield (
         f"{format_count(len(ends), 'gap')} {are} at the beginning or the end of the recording, "

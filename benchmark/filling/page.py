@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -38,7 +38,7 @@ def compose_page(filled: FilledFile, command: str) -> FilledPage:
     gaps, recording = filled.input_file.request.gaps, filled.recording
     jumps = find_jumps(recording, filled.input_file.request.target)
     shown = list(_choose_gaps(recording, gaps, jumps))
-    choice, units = filled.choice, _list_units(filled.input_file.request)
+    choice = filled.choice
     ranking = choice.ranking if choice else None
     return FilledPage(
         file=filled.input_file.path.name,
@@ -48,7 +48,7 @@ def compose_page(filled: FilledFile, command: str) -> FilledPage:
         curves=tuple(_cut_curves(filled, recording, shown)),
         caption=_describe_gaps(gaps, shown),
         motion=_draw_motion(filled, recording, max(gaps, key=len)),
-        units=units,
+        units=_list_units(filled.input_file.request, choice.rmse) if choice else (),
         n_gaps=ranking.n_gaps if ranking else 0,
         errors={model: ranking.means[model] for model in ranking.order} if ranking else {},
         rmse=choice.rmse if choice else {},
@@ -59,10 +59,12 @@ def compose_page(filled: FilledFile, command: str) -> FilledPage:
     )
 
 
-def _list_units(request: FillRequest) -> tuple[str, ...]:
-    """Return the units of the filled channels, in order of appearance."""
+def _list_units(request: FillRequest, rmse: Mapping[str, Mapping[str, float]]) -> tuple[str, ...]:
+    """Return the units of the filled channels of which models have errors, in order."""
     channels = np.flatnonzero(request.target.any(axis=0))
-    return tuple(dict.fromkeys(request.given.units[channel] for channel in channels))
+    held_out = set().union(*rmse.values())
+    units = dict.fromkeys(request.given.units[channel] for channel in channels)
+    return tuple(unit for unit in units if unit in held_out)
 
 
 def _note_models(choice: Choice, chosen: str) -> dict[str, str]:

@@ -1,8 +1,9 @@
 """Hold-outs: copies of the real gaps, hidden where the recording is visible.
 
 A hold-out takes the recording with its real gaps, and hides copies of them elsewhere: of the same
-lengths, in the same channels, those together that occur together. At the recording's ends, where a
-gap has frames on one side only, the hold-out begins or ends with the copy.
+lengths, in the same channels, those together that occur together. Gaps at the recording's ends,
+which have frames on one side only, are copied where there are no others; then the hold-out begins
+or ends with the copy.
 """
 
 from __future__ import annotations
@@ -92,10 +93,12 @@ def _make_hold_out(
 ) -> HoldOut | None:
     """Return one hold-out, and mark the frames that it hides as used."""
     layout = EpisodeLayout(~problem.given.visible, used, rng)
-    first, last = _find_gaps_at_the_ends(problem)
-    layout.begin(first)
-    layout.end(last)
-    layout.place_between(queue)
+    if queue.n_per_hold_out:
+        layout.place_between(queue)
+    else:
+        first, last = _find_gaps_at_the_ends(problem)
+        layout.begin(first)
+        layout.end(last)
     return _hide_copies(problem, layout) if layout.copies else None
 
 

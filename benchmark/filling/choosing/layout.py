@@ -91,12 +91,12 @@ class EpisodeLayout:
         first; there it is shortened if need be.
         """
         room = MOST_HIDDEN * (self.stop - self.start)
-        hidden, n_at_the_ends = 0, len(self.copies)
+        hidden = 0
         for _ in range(queue.n_per_hold_out):
             episode = queue.peek()
             if hidden and hidden + len(episode) > room:
                 return
-            has_others = len(self.copies) > n_at_the_ends
+            has_others = bool(self.copies)
             shares = _SHARES[:1] if has_others else _SHARES
             copy = self._place(episode, self.start, self.stop, shares)
             if copy is None and has_others:

@@ -6,11 +6,17 @@ from collections.abc import Sequence
 
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError, first_of
-from mocapbench.benchmark.filling.requests.names import name_markers
+from mocapbench.benchmark.filling.gaps import Gap, count_entries
+from mocapbench.benchmark.filling.requests.names import name_hidden_markers, name_markers
 from mocapbench.benchmark.missing_values import undecided_values
 from mocapbench.datasets import Recording
 
-__all__ = ["NothingToFillError", "explain_no_gap", "explain_nothing_known"]
+__all__ = [
+    "NothingToFillError",
+    "explain_no_gap",
+    "explain_nothing_known",
+    "explain_only_ends",
+]
 
 _NAMED = 3
 
@@ -49,4 +55,23 @@ def explain_nothing_known(recording: Recording, unknown: Sequence[str]) -> str:
     return (
         f"{recording.name}: expected a visible entry of a channel to fill, got none of "
         f"{first_of(name_markers(unknown), _NAMED)}; name files that have these with --train"
+    )
+
+
+def explain_only_ends(
+    recording: Recording, open_ends: Sequence[Gap], blank_ends: Sequence[Gap]
+) -> str:
+    """Return that nothing is hidden but before or after what is visible."""
+    expected = f"{recording.name}: expected a gap between visible entries, got none"
+    if not open_ends:
+        frames = format_count(sum(map(len, blank_ends)), "frame")
+        return (
+            f"{expected}, but {frames} at the beginning or the end in which nothing is visible; "
+            "name what to fill with --frames, such as 120:180"
+        )
+    entries = format_count(count_entries(open_ends), "hidden entry", "hidden entries")
+    names = first_of(name_hidden_markers(recording.channels, open_ends), _NAMED)
+    return (
+        f"{expected}, but {entries} before the first visible one or after the last ({names}); "
+        "--ends fill fills them"
     )

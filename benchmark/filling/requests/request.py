@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.gaps import Gap, find_gaps, mask_gaps
+from mocapbench.benchmark.filling.gaps import Gap, find_gaps, mask_ends, mask_gaps
 from mocapbench.benchmark.filling.requests.channels import match_channels
 from mocapbench.benchmark.filling.requests.refusals import (
     NothingToFillError,
     explain_no_gap,
     explain_nothing_known,
+    explain_only_ends,
 )
 from mocapbench.datasets import Mask, Recording, unwrap_angles
 from mocapbench.datasets.formats.strays import is_unlabelled
@@ -24,7 +25,7 @@ __all__ = ["FillRequest", "NamedEntries", "select"]
 
 @dataclass(frozen=True)
 class NamedEntries:
-    """Which entries the user names; by default every hidden one.
+    """Which entries the user names; by default every hidden one between visible ones.
 
     Parameters
     ----------
@@ -35,11 +36,15 @@ class NamedEntries:
         but those of unlabelled markers and of results of a model of the body are meant.
     max_gap : float or None
         Seconds; longer gaps stay open.
+    fill_ends : bool
+        Whether hidden entries before the first visible one of their channel and after the last are
+        filled, too, where anything is visible.
     """
 
     frames: tuple[int, int] | None = None
     channels: str | None = None
     max_gap: float | None = None
+    fill_ends: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +69,11 @@ class FillRequest:
         Channels of results of a model of the body that have hidden entries, and that nobody named.
     results : tuple of str
         All channels of results of a model of the body.
+    open_ends : tuple of Gap
+        What is hidden before the first visible entry of a channel or after the last, and nobody
+        asked for.
+    blank_ends : tuple of Gap
+        What is hidden in frames before or after those in which anything is visible.
     """
 
     given: Recording
@@ -74,6 +84,8 @@ class FillRequest:
     replaced: int = 0
     outputs: tuple[str, ...] = ()
     results: tuple[str, ...] = ()
+    open_ends: tuple[Gap, ...] = ()
+    blank_ends: tuple[Gap, ...] = ()
 
     @property
     def gaps(self) -> tuple[Gap, ...]:
@@ -113,8 +125,12 @@ def select(
         )
     known = np.any([one.visible.any(axis=0) for one in (given, *train)], axis=0)
     unknown = _name_channels(recording, asked.any(axis=0) & ~known)
-    named = asked & known
+    open_ends, blank_ends = _mark_unfilled_ends(recording, entries, asked & known, results)
+    named = asked & known & ~open_ends & ~blank_ends
+    ends = find_gaps(open_ends), find_gaps(blank_ends)
     if not named.any():
+        if any(ends):
+            raise NothingToFillError(explain_only_ends(recording, *ends))
         raise UsageError(explain_nothing_known(recording, unknown))
     left_open = _find_longer_gaps(recording, named, entries.max_gap)
     target = named & ~mask_gaps(left_open, named.shape)
@@ -129,6 +145,7 @@ def select(
         replaced,
         outputs,
         tuple(results),
+        *ends,
     )
 
 
@@ -149,6 +166,23 @@ def _select_entries(recording: Recording, entries: NamedEntries, results: Sequen
     """Return the entries (N, D) that are asked for: given frames, or else what is hidden."""
     rows = ~recording.visible if entries.frames is None else _mark_frames(recording, entries.frames)
     return rows & match_channels(recording, entries.channels, results)
+
+
+def _mark_unfilled_ends(
+    recording: Recording, entries: NamedEntries, asked: Mask, results: Sequence[str]
+) -> tuple[Mask, Mask]:
+    """Return which asked entries (N, D) at the ends stay open, and which beside nothing visible.
+
+    Frames that the user names are filled as they are named.
+    """
+    if entries.frames is not None:
+        return np.zeros_like(asked), np.zeros_like(asked)
+    patterns = (None, entries.channels)
+    counted = np.any([match_channels(recording, one, results) for one in patterns], axis=0)
+    anything = np.asarray(recording.visible[:, counted].any(axis=1))
+    blank = asked & mask_ends(anything[:, np.newaxis])
+    at_ends = asked & mask_ends(recording.visible) & ~blank
+    return at_ends & (not entries.fill_ends), blank
 
 
 def _mark_frames(recording: Recording, frames: tuple[int, int]) -> Mask:

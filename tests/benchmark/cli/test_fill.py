@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import vendor_tables
 from c3d_files import text, write_bytes
+from shared_files import shared
 
 from mocapbench.benchmark import FORMATS, format_for
 from mocapbench.benchmark.cli import fill as command
@@ -551,3 +552,123 @@ def test_tables_of_every_program_are_filled(cli, tmp_path, out, name):
     filled = CSVFormat().read(out / table.name, 100.0)
     assert filled.visible.all()
     assert filled.channels == table.channels
+
+
+def walk_in_and_out(recording):
+    """Hide a gap, what is before somebody comes and after, and more of the first three channels."""
+    hidden = np.zeros(recording.values.shape, dtype=bool)
+    hidden[:9] = hidden[50:] = hidden[:14, :3] = hidden[46:, :3] = hidden[25:30, :3] = True
+    return recording.hide(hidden)
+
+
+WITH_GAPS = {
+    "bvh": ("walk.bvh", format_files.write_bvh, format_files.walk),
+    "c3d": ("markers.c3d", format_files.write_c3d, format_files.markers),
+    "csv": ("walk.csv", format_files.write_csv, format_files.walk),
+    "npz": ("walk.npz", format_files.write_npz, format_files.poses),
+    "parquet": ("walk.parquet", format_files.write_parquet, format_files.walk),
+    "trc": ("markers.trc", format_files.write_trc, format_files.markers),
+}
+
+
+@pytest.fixture(params=WITH_GAPS)
+def seen_for_a_while(request, tmp_path):
+    """Return a file of each format that has gaps, of somebody who walks in and out, and all."""
+    file, write, make = WITH_GAPS[request.param]
+    path = tmp_path / file
+    write(path, walk_in_and_out(make()))
+    return path, make().values
+
+
+def test_nothing_is_invented_before_and_after_somebody_is_there(cli, seen_for_a_while, out):
+    path, truth = seen_for_a_while
+    assert cli("fill", path, "--model", "makima", "--out", out) == 0
+    n_open = 19 * truth.shape[1] + 9 * 3
+    assert f"filled 15 entries in 1 gap, and left {n_open} open at the ends." in cli.printed
+    assert f"left {n_open} open at the ends" in (out / f"{path.name}.html").read_text()
+    before, after = (format_for(file).read(file).values for file in (path, out / path.name))
+    moved = np.abs(after[25:30, :3] - truth[25:30, :3]).max()
+    assert moved < 0.25 * np.ptp(truth[15:40, :3], axis=0).max() + 0.5
+    kept = after.copy()
+    kept[25:30, :3] = np.nan
+    np.testing.assert_array_equal(kept, before)
+
+
+def test_bytes_at_the_ends_stay_whatever_they_are(cli, seen_for_a_while, tmp_path, out):
+    """What is filled is what is filled if the gap alone is named, where nothing else is touched."""
+    path, _ = seen_for_a_while
+    channels = format_for(path).read(path).channels[:3]
+    gap = ("--frames", "25:30", "--channels", "|".join(map(re.escape, channels)))
+    assert cli("fill", path, "--model", "linear", "--out", out) == 0
+    assert cli("fill", path, "--model", "linear", *gap, "--out", tmp_path / "named") == 0
+    assert (out / path.name).read_bytes() == (tmp_path / "named" / path.name).read_bytes()
+    if path.suffix in {".bvh", ".csv", ".trc"}:
+        lines = [file.read_bytes().splitlines() for file in (path, out / path.name)]
+        changed = [k for k, pair in enumerate(zip(*lines, strict=True)) if pair[0] != pair[1]]
+        assert changed == [*range(changed[0], changed[0] + 5)]
+
+
+def test_ends_are_filled_on_request_but_not_where_nobody_is_there(cli, seen_for_a_while, out):
+    path, truth = seen_for_a_while
+    assert cli("fill", path, "--ends", "fill", "--model", "linear", "--out", out) == 0
+    assert f"filled 42 entries in 3 gaps, and left {19 * truth.shape[1]} open" in cli.printed
+    assert "2 gaps are at the beginning or the end of the recording" in cli.printed
+    visible = format_for(path).read(out / path.name).visible
+    assert visible[9:50].all()
+    assert not visible[:9].any()
+    assert not visible[50:].any()
+
+
+@pytest.mark.parametrize("mark", ["NaN", "0", "9999999"])
+def test_marks_of_missing_values_at_the_ends_stay(cli, tmp_path, out, mark):
+    values = np.random.default_rng(0).uniform(-9, 9, (60, 6)).cumsum(axis=0) + 900
+    hidden = np.zeros((60, 6), dtype=bool)
+    hidden[:9] = hidden[50:] = hidden[25:30, :3] = hidden[9:12, 3:] = True
+    cells = np.where(hidden, mark, np.char.mod("%.4f", values)).tolist()
+    header = "time,a.x [mm],a.y [mm],a.z [mm],b.x [mm],b.y [mm],b.z [mm]"
+    path = save(
+        tmp_path / "a.csv",
+        [[f"{k / 60:.6f}", *row] for k, row in enumerate(cells)],
+        header,
+    )
+    assert cli("fill", path, "--model", "linear", "--out", out) == 0
+    assert "filled 15 entries in 1 gap, and left 123 open at the ends." in cli.printed
+    before, after = (file.read_text().splitlines() for file in (path, out / "a.csv"))
+    changed = [k for k, pair in enumerate(zip(before, after, strict=True)) if pair[0] != pair[1]]
+    assert changed == [*range(26, 31)]
+    assert [line.split(",")[4:] for line in after] == [line.split(",")[4:] for line in before]
+
+
+def test_a_file_that_is_open_at_its_ends_only_is_left_out_with_the_option(cli, walk, tmp_path, out):
+    ends = save(tmp_path / "ends.csv", rows(gap=range(9)))
+    assert cli("fill", ends, "--model", "linear", "--out", out) == 2
+    said = "expected a gap between visible entries, got none, but 9 hidden entries before the first"
+    assert said in cli.printed
+    assert "(knee); --ends fill fills them" in cli.printed
+    assert not out.exists()
+    assert cli("fill", ends, walk, "--model", "linear", "--out", out) == 0
+    assert "left out: " in cli.printed
+    assert sorted(path.name for path in out.glob("*.csv")) == ["walk.csv", "walk.csv.entries.csv"]
+    assert cli("fill", ends, "--ends", "fill", "--budget", 2, "--out", out) == 0
+    assert CSVFormat().read(out / "ends.csv").visible.all()
+
+
+def test_a_model_is_chosen_by_the_gaps_and_not_by_the_ends(cli, tmp_path, out):
+    """Somebody is there for half of the time, so that copies of the ends would fit nowhere."""
+    path = save(tmp_path / "a.csv", rows(gap={*range(40), *range(55, 60), *range(80, 120)}))
+    for ends in ("open", "fill"):
+        options = ("--ends", ends, "--budget", 5, "--out", out / ends)
+        assert cli("fill", path, *options) == 0
+        assert "held-out gaps are down to" not in cli.printed
+
+
+def test_the_walk_of_somebody_who_comes_and_goes_is_filled_within(cli, out):
+    path = shared("wild", "cases", "05-walk-in-walk-out", "walk.c3d")
+    for ends in ("open", "fill"):
+        options = ("--ends", ends, "--model", "rigid-body", "--out", out / ends)
+        assert cli("fill", path, *options) == 0
+        assert "rigid-body filled 90 entries in 2 gaps, and left 5760 open at" in cli.printed
+        assert "Nothing is visible in 160 frames at the beginning or the end" in cli.printed
+        points = ezc3d.c3d(str(out / ends / "walk.c3d"))["data"]["points"][:3]
+        assert np.isnan(points[:, :, [*range(90), *range(230, 300)]]).all()
+        assert not np.isnan(points[:, :, 90:230]).any()

@@ -58,3 +58,21 @@ def test_without_room_for_a_hold_out_a_model_is_to_be_named(waves, hidden):
     mask = hidden((1, 199, [0, 1, 2, 3]))
     with pytest.raises(UsageError, match="name a model with --model"):
         fill(input_file(waves(), mask), BEST, Slow(), 5.0, lambda *_: None)
+
+
+def test_a_model_is_not_asked_about_frames_in_which_nobody_is_there(waves, hidden):
+    everything = [0, 1, 2, 3]
+    mask = hidden(
+        (0, 30, everything), (50, 60, [0, 1]), (70, 80, everything), (190, 200, everything)
+    )
+    problem = input_file(waves(), mask).problem
+    np.testing.assert_array_equal(problem.given.times, waves().times[30:190])
+    np.testing.assert_array_equal(problem.target, mask[30:190])
+
+
+def test_entries_are_filled_at_their_frames_though_frames_before_them_are_cut(waves, hidden):
+    mask = hidden((0, 30, [0, 1, 2, 3]), (50, 60, [0, 1]))
+    filled = fill(input_file(waves(), mask), "linear", Slow(), 5.0, lambda *_: None)
+    (line,) = LinearImputer().fit([waves()]).impute([waves().hide(mask)])
+    np.testing.assert_allclose(filled.recording.values[50:60, :2], line.mean[50:60, :2])
+    assert not filled.recording.visible[:30].any()

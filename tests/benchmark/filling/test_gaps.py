@@ -3,7 +3,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from mocapbench.benchmark.filling.gaps import Episode, Gap, find_gaps, group_gaps, mask_gaps
+from mocapbench.benchmark.filling.gaps import (
+    Episode,
+    Gap,
+    find_gaps,
+    group_gaps,
+    mask_ends,
+    mask_gaps,
+)
 
 MASKS = arrays(bool, st.tuples(st.integers(1, 12), st.integers(1, 5)))
 
@@ -18,6 +25,14 @@ def test_no_gap_goes_on_where_it_ends(mask):
     for gap in find_gaps(mask):
         for beside in {gap.start - 1, gap.stop} & set(range(len(mask))):
             assert not mask[beside, list(gap.channels)].any()
+
+
+@given(MASKS)
+def test_ends_are_hidden_with_visible_frames_on_one_side_only(visible):
+    ends = mask_ends(visible)
+    for (frame, channel), is_end in np.ndenumerate(ends):
+        before, after = visible[:frame, channel].any(), visible[frame + 1 :, channel].any()
+        assert is_end == (not visible[frame, channel] and before != after)
 
 
 @given(MASKS)

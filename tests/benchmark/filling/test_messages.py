@@ -11,7 +11,7 @@ from mocapbench.benchmark.filling.gap_problem import PredictedEntries
 from mocapbench.benchmark.filling.gaps import Gap
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.benchmark.filling.messages import describe_choice, describe_fill, list_remarks
-from mocapbench.benchmark.filling.requests.request import FillRequest
+from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
 from mocapbench.datasets import CSVFormat, Recording
 
 
@@ -208,6 +208,24 @@ def test_unlabelled_markers_that_stay_as_they_are_are_counted_once(filled, waves
         replace(one, prediction=PredictedEntries(waves().values[target], np.ones(10)))
     )
     assert said.startswith("1 unlabelled marker (*12) stays as it is: name it with --channels")
+
+
+@pytest.mark.parametrize(("fill_ends", "count"), [(False, 36), (True, 20)])
+def test_what_is_open_at_the_ends_is_counted_beside_the_gaps(
+    filled, waves, hidden, fill_ends, count
+):
+    mask = hidden((0, 5, [0, 1, 2, 3]), (5, 13, [0, 1]), (50, 60, [3]))
+    request = select(waves().hide(mask), NamedEntries(fill_ends=fill_ends))
+    prediction = PredictedEntries(waves().values[request.target], None)
+    input_file = replace(filled().input_file, request=request)
+    one = replace(filled(), input_file=input_file, prediction=prediction)
+    assert describe_fill(one).endswith(f", and left {count} open at the ends.")
+    remarks = " ".join(list_remarks(one))
+    assert "Nothing is visible in 5 frames at the beginning or the end, which stay" in remarks
+    stay = "Of hip.rx and hip.ry, 16 entries before the first visible one or after the last stay"
+    assert (stay in remarks) != fill_ends
+    assert ("1 gap is at the beginning or the end of the recording" in remarks) == fill_ends
+    assert "not to be filled" not in remarks
 
 
 @pytest.mark.parametrize(

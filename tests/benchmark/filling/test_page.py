@@ -14,6 +14,7 @@ from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.benchmark.filling.page import compose_page
 from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.datasets import AcclaimFormat, CSVFormat, Recording
+from mocapbench.reports import render_filled
 
 
 def page_for(whole, target, filled):
@@ -91,6 +92,17 @@ def test_the_ranking_notes_the_choice_and_over_whom_its_lead_may_be_chance(fille
     assert page.errors == choice.ranking.means
     assert page.notes["one"] == "chosen, fitted to windows"
     assert page.notes["two"].startswith("lead of one may be chance")
+
+
+def test_units_that_no_held_out_gap_has_are_not_in_the_ranking(filled, choice_of, waves, hidden):
+    one = filled(choice_of({"one": [1, 2], "two": [2, 3]}))
+    target = hidden((50, 60, [0, 1]), (0, 5, [3]))
+    request = FillRequest(waves().hide(target), target, ())
+    prediction = PredictedEntries(waves().values[target], None)
+    input_file = replace(one.input_file, request=request)
+    page = compose_page(replace(one, input_file=input_file, prediction=prediction), "fill")
+    assert page.units == ("deg",)
+    assert "RMSE, deg" in render_filled(page)
 
 
 def test_a_model_without_a_rank_is_listed_with_what_it_did_and_why(filled, choice_of):

@@ -6,6 +6,7 @@ import pytest
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.gaps import Gap
+from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import NamedEntries, select
 from mocapbench.datasets import Recording
 
@@ -44,6 +45,68 @@ def starred(waves):
     return make
 
 
+def test_ends_stay_open_and_are_counted_apart_from_gaps(waves, hidden):
+    recording = waves().hide(hidden((0, 30, [0]), (50, 60, [0, 1]), (180, 200, [1])))
+    request = select(recording, NamedEntries())
+    assert request.gaps == (Gap(50, 60, (0, 1)),)
+    assert request.open_ends == (Gap(0, 30, (0,)), Gap(180, 200, (1,)))
+    assert not request.blank_ends
+    assert select(recording, NamedEntries(channels="hip.ry")).open_ends == (Gap(180, 200, (1,)),)
+
+
+def test_ends_are_filled_if_the_user_says_so(waves, hidden):
+    mask = hidden((0, 30, [0]), (50, 60, [0, 1]), (180, 200, [1]))
+    request = select(waves().hide(mask), NamedEntries(fill_ends=True))
+    np.testing.assert_array_equal(request.target, mask)
+    assert not request.open_ends
+
+
+@pytest.mark.parametrize("fill_ends", [False, True])
+def test_where_nobody_is_there_no_end_is_filled(waves, hidden, fill_ends):
+    mask = hidden((0, 30, [0, 1, 2, 3]), (30, 35, [0]), (50, 60, [0, 1, 2, 3]), (190, 200, [1]))
+    request = select(waves().hide(mask), NamedEntries(fill_ends=fill_ends))
+    ends = (Gap(30, 35, (0,)), Gap(190, 200, (1,)))
+    assert request.gaps == tuple(sorted((*ends * fill_ends, Gap(50, 60, (0, 1, 2, 3)))))
+    assert request.open_ends == ends * (not fill_ends)
+    assert request.blank_ends == (Gap(0, 30, (0, 1, 2, 3)),)
+
+
+def test_strays_do_not_show_that_somebody_is_there(starred, hidden):
+    mask = hidden((0, 30, [3]), (50, 60, [3]))
+    assert select(starred(mask), NamedEntries()).blank_ends == (Gap(0, 30, (3,)),)
+    named = select(starred(mask), NamedEntries(channels=".*", fill_ends=True))
+    np.testing.assert_array_equal(named.target, mask)
+
+
+def test_a_channel_that_is_visible_nowhere_is_filled_where_somebody_is_there(waves, hidden):
+    recording = waves().hide(hidden((0, 30, [0, 1, 2, 3]), (0, 200, [1])))
+    request = select(recording, NamedEntries(), train=[waves(name="other")])
+    assert request.gaps == (Gap(30, 200, (1,)),)
+
+
+@pytest.mark.parametrize("frames", [(0, 40), (0, 30), (10, 20)])
+def test_named_frames_are_filled_wherever_they_are(waves, hidden, frames):
+    recording = waves().hide(hidden((0, 30, [0, 1, 2, 3]), (30, 40, [0])))
+    request = select(recording, NamedEntries(frames))
+    np.testing.assert_array_equal(request.target, hidden((*frames, [0, 1, 2, 3])))
+    assert not request.open_ends
+    assert not request.blank_ends
+
+
+@pytest.mark.parametrize("lost", [[], [3]])
+def test_where_only_ends_are_hidden_the_option_is_said(waves, hidden, lost):
+    recording = waves().hide(hidden((0, 20, [0, 1, 2, 3]), (0, 30, [0, 1]), (0, 200, lost)))
+    said = (
+        r"20 hidden entries before .* after the last [(]hip.rx, hip.ry[)]; --ends fill fills them"
+    )
+    with pytest.raises(NothingToFillError, match=said):
+        select(recording, NamedEntries())
+    blank = waves().hide(hidden((0, 20, [0, 1, 2, 3]), (0, 200, lost)))
+    for fill_ends in (False, True):
+        with pytest.raises(NothingToFillError, match=r"20 frames .* is visible; .*--frames"):
+            select(blank, NamedEntries(fill_ends=fill_ends))
+
+
 @pytest.mark.parametrize("frames", [None, (20, 30)])
 def test_unlabelled_markers_stay_as_they_are_unless_they_are_named(starred, hidden, frames):
     recording = starred(hidden((5, 200, [0, 1, 2]), (20, 30, [3])))
@@ -51,7 +114,7 @@ def test_unlabelled_markers_stay_as_they_are_unless_they_are_named(starred, hidd
     assert request.gaps == (Gap(20, 30, (3,)),)
     assert request.unlabelled == ("*12.x", "*12.y", "*12.z")
     for pattern in (".*", r"\*12.*"):
-        named = select(recording, NamedEntries(frames, channels=pattern))
+        named = select(recording, NamedEntries(frames, channels=pattern, fill_ends=True))
         assert named.target[:, :3].any()
         assert not named.unlabelled
 
