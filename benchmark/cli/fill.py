@@ -13,17 +13,15 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench import reports
+from mocapbench import datasets, reports
 from mocapbench.benchmark import filling
 from mocapbench.benchmark.cli.console import LiteralConsole
-from mocapbench.benchmark.cli.failures import explain
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
 from mocapbench.benchmark.errors import ExitCode, UsageError
-from mocapbench.benchmark.missing_values import choose_missing_rule
-from mocapbench.datasets import FormatError
 
 if TYPE_CHECKING:
     from mocapbench.benchmark.filling import FilledFile, InputFile, OutputPaths, Workers
+    from mocapbench.benchmark.missing_values import MissingRule
 
 __all__ = ["app"]
 
@@ -88,7 +86,7 @@ def fill(
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
     entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap, ends == "fill")
-    reading = filling.Reading(rate, min_likelihood, insert_missing, choose_missing_rule(missing))
+    reading = filling.Reading(rate, min_likelihood, insert_missing, _choose_rule(missing))
 
     def check(input_file: InputFile) -> None:
         _require_fillable(input_file, model, outputs[input_file.path])
@@ -120,7 +118,7 @@ def _explain_refusal(error: Exception, console: LiteralConsole) -> ExitCode:
     if isinstance(error, filling.NothingToFillError):
         console.print(f"left out: {error}", soft_wrap=True, highlight=False)
         return ExitCode.OK
-    return explain(error)
+    return _explain(error)
 
 
 def _fill_file(
@@ -134,8 +132,8 @@ def _fill_file(
     """Fill a file, say why if that is impossible, and return the exit code for it."""
     try:
         _fill_and_write(input_file, model, workers, budget, outputs, console)
-    except (UsageError, FormatError, OSError) as error:
-        return explain(error)
+    except (UsageError, datasets.FormatError, OSError) as error:
+        return _explain(error)
     return ExitCode.OK
 
 
@@ -201,3 +199,16 @@ def _parse_frames(frames: str | None) -> tuple[int, int] | None:
 
 def _quote_command() -> str:
     return join(["mocapbench", *sys.argv[1:]])
+
+
+def _choose_rule(missing: str | None) -> MissingRule:
+    # These and `_explain` load numerical libraries, for which completion need not wait.
+    from mocapbench.benchmark.missing_values import choose_missing_rule  # noqa: PLC0415
+
+    return choose_missing_rule(missing)
+
+
+def _explain(error: Exception) -> ExitCode:
+    from mocapbench.benchmark.cli.failures import explain  # noqa: PLC0415
+
+    return explain(error)
