@@ -30,6 +30,7 @@ from .inspection.output import explanation_table, state_lines, state_table
 from .inspection.recordings import DataRequest, data_totals, next_data_step
 from .inspection.state import RunState, run_state
 from .merging.merge import merge
+from .missing_values import choose_missing_rule
 from .plugins import load_plugin, load_plugins
 from .problems.base import InvalidPredictionError, Problem, Solution
 from .problems.body import Body, JointAngles, JointPositions
@@ -58,7 +59,7 @@ from .runs.plan import plan, required_recordings
 from .runs.plan_document import plan_document, planned_task_files
 from .runs.provenance import provenance
 from .runs.record import Record, Status
-from .runs.request import Request, list_unmet_needs
+from .runs.request import Request, list_unmet_needs, split_cases
 from .runs.run import run
 from .task_files.building import add_tasks
 from .task_files.checking import open_task_files
@@ -115,6 +116,7 @@ __all__ = [
     "archive_at",
     "bundle",
     "check",
+    "choose_missing_rule",
     "compare",
     "data_totals",
     "draft",
@@ -173,6 +175,7 @@ __all__ = [
     "run_state",
     "score_table",
     "solved_problem",
+    "split_cases",
     "stamp",
     "state_lines",
     "state_table",

@@ -8,10 +8,10 @@ from typing import TextIO
 
 from rich.text import Text
 
+from mocapbench import datasets
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import ExitCode, Interruption, OutputError, UsageError
 from mocapbench.benchmark.files import words_of
-from mocapbench.datasets import AcclaimError, DigestMismatch, FormatError
 
 __all__ = ["exit_code", "explain", "show_warning"]
 
@@ -68,7 +68,12 @@ def show_warning(
 def _code_and_message(error: BaseException) -> tuple[ExitCode, str]:
     """Return the exit code of an error, and what to say of it."""
     match error:
-        case UsageError() | DigestMismatch() | AcclaimError() | FormatError():
+        case (
+            UsageError()
+            | datasets.DigestMismatch()
+            | datasets.AcclaimError()
+            | datasets.FormatError()
+        ):
             return ExitCode.USAGE, str(error)
         case OSError():
             return ExitCode.USAGE, f"cannot read or write: {words_of(error)}"

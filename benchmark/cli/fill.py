@@ -16,12 +16,12 @@ from mocapbench import benchmark as bench
 from mocapbench import datasets, reports
 from mocapbench.benchmark import filling
 from mocapbench.benchmark.cli.console import LiteralConsole
+from mocapbench.benchmark.cli.failures import explain
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
 from mocapbench.benchmark.errors import ExitCode, UsageError
 
 if TYPE_CHECKING:
     from mocapbench.benchmark.filling import FilledFile, InputFile, OutputPaths, Workers
-    from mocapbench.benchmark.missing_values import MissingRule
 
 __all__ = ["app"]
 
@@ -86,7 +86,9 @@ def fill(
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
     entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap, ends == "fill")
-    reading = filling.Reading(rate, min_likelihood, insert_missing, _choose_rule(missing))
+    reading = filling.Reading(
+        rate, min_likelihood, insert_missing, bench.choose_missing_rule(missing)
+    )
 
     def check(input_file: InputFile) -> None:
         _require_fillable(input_file, model, outputs[input_file.path])
@@ -118,7 +120,7 @@ def _explain_refusal(error: Exception, console: LiteralConsole) -> ExitCode:
     if isinstance(error, filling.NothingToFillError):
         console.print(f"left out: {error}", soft_wrap=True, highlight=False)
         return ExitCode.OK
-    return _explain(error)
+    return explain(error)
 
 
 def _fill_file(
@@ -133,7 +135,7 @@ def _fill_file(
     try:
         _fill_and_write(input_file, model, workers, budget, outputs, console)
     except (UsageError, datasets.FormatError, OSError) as error:
-        return _explain(error)
+        return explain(error)
     return ExitCode.OK
 
 
@@ -199,16 +201,3 @@ def _parse_frames(frames: str | None) -> tuple[int, int] | None:
 
 def _quote_command() -> str:
     return join(["mocapbench", *sys.argv[1:]])
-
-
-def _choose_rule(missing: str | None) -> MissingRule:
-    # These and `_explain` load numerical libraries, for which completion need not wait.
-    from mocapbench.benchmark.missing_values import choose_missing_rule  # noqa: PLC0415
-
-    return choose_missing_rule(missing)
-
-
-def _explain(error: Exception) -> ExitCode:
-    from mocapbench.benchmark.cli.failures import explain  # noqa: PLC0415
-
-    return explain(error)

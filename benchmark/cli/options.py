@@ -13,7 +13,6 @@ from mocapbench import benchmark as bench
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import is_writable
-from mocapbench.benchmark.runs.request import split_cases
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import RunDirectory, TaskFile
@@ -81,7 +80,7 @@ def cases_named(texts: Sequence[str], tasks: Sequence[str]) -> tuple[str, ...]:
         return ()
     cases = [case for name in tasks or bench.TASKS.names() for case in bench.TASKS.get(name).cases]
     names = [case.name for case in cases]
-    return tuple(case for text in texts for case in split_cases(text, names))
+    return tuple(case for text in texts for case in bench.split_cases(text, names))
 
 
 def load_plugins(paths: Sequence[Path] | None) -> tuple[Path, ...]:
