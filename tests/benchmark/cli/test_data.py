@@ -37,6 +37,7 @@ def test_renewing_takes_another_copy_as_right(cli, database):
     assert cli("data", "verify", "99_01", "--data-dir", database) == 0
     motion.write_text(motion.read_text().rstrip())
     assert cli("data", "verify", "99_01", "--data-dir", database) == 2
+    assert cli("data", "fetch", "99_01", "--data-dir", database) == 2
     assert "with: mocapbench data renew 99_01" in cli.printed
     assert cli("data", "renew", "99_01", "--data-dir", database) == 0
     assert cli("data", "verify", "99_01", "--data-dir", database) == 0
