@@ -25,8 +25,9 @@ class Calibrated(FrameImputer):
 
     A model may help by methods of its own, none of which it needs:
 
-    * ``leave_one_out(recordings)`` returns for each recording the squared errors over variances of
-      its visible entries (N, D), each predicted from all others, with NaN where it knows none;
+    * ``leave_one_out(recordings)`` returns for each recording its prediction, and the squared
+      errors over variances of its visible entries (N, D), each predicted from all others, with NaN
+      where it knows none;
     * ``impute_held_out(recordings)`` predicts recordings of which more is hidden than in ``fit``,
       with parameters that tell little of it: the model then never learns anew;
     * ``least_variances(recordings)`` returns for each recording the least variances (N, D) that

@@ -53,6 +53,8 @@ def calibrate(
     recordings : sequence of Recording
         To be filled.
     """
+    if hasattr(model, "leave_one_out"):
+        return _calibrate_by_leave_one_out(model, recordings)
     nominal = model.impute(recordings)
     pairs = zip(recordings, nominal, strict=True)
     known = [(one, prediction) for one, prediction in pairs if prediction.variance is not None]
@@ -66,8 +68,6 @@ def _choose_way(
     known: Sequence[tuple[Recording, Prediction]],
 ) -> list[Prediction]:
     recordings, nominal = zip(*known, strict=True)
-    if hasattr(model, "leave_one_out"):
-        return _calibrate_by_leave_one_out(model, recordings, nominal)
     if not model.learns_in_fit:
         return [
             _calibrate_by_held_out_recordings(model, learnt_from, recording, prediction)
@@ -76,18 +76,15 @@ def _choose_way(
     return _calibrate_by_held_out_gaps(model, learnt_from, recordings, nominal)
 
 
-def _calibrate_by_leave_one_out(
-    model: Any, recordings: Sequence[Recording], nominal: Sequence[Prediction]
-) -> list[Prediction]:
+def _calibrate_by_leave_one_out(model: Any, recordings: Sequence[Recording]) -> list[Prediction]:
     """Multiply the variances of a channel by the larger of two mean ratios.
 
     It is less than 1 only as far as all entries together support. Single frames between visible
     ones say nothing of longer gaps, which are therefore held out besides.
     """
     calibrated = []
-    for recording, prediction, ratios in zip(
-        recordings, nominal, model.leave_one_out(recordings), strict=True
-    ):
+    left_out = model.leave_one_out(recordings)
+    for recording, (prediction, ratios) in zip(recordings, left_out, strict=True):
         factors = leave_one_out_factors(recording.visible, ratios)
         check = VarianceCheck(recording, long_copies)
         if check.copies:

@@ -144,10 +144,17 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         by_channel = [model.impute(alone) for model, alone in self._by_channel(recordings)]
         return [_stack_channels(channels) for channels in zip(*by_channel, strict=True)]
 
-    def leave_one_out(self, recordings: Sequence[Recording]) -> list[Array]:
-        """Return the squared errors over variances of visible entries, each left out: (N, D)."""
+    def leave_one_out(self, recordings: Sequence[Recording]) -> list[tuple[Prediction, Array]]:
+        """Return the posterior of recordings, and the errors of visible entries left out: (N, D).
+
+        See `MOHGP.leave_one_out`.
+        """
         by_channel = [model.leave_one_out(alone) for model, alone in self._by_channel(recordings)]
-        return [np.hstack(channels) for channels in zip(*by_channel, strict=True)]
+        stacked = []
+        for channels in zip(*by_channel, strict=True):
+            nominal, ratios = zip(*channels, strict=True)
+            stacked.append((_stack_channels(nominal), np.hstack(ratios)))
+        return stacked
 
     def impute_held_out(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the posterior of recordings given to `fit` of which more is hidden."""

@@ -337,20 +337,30 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
             If a recording was not given to `fit`, or not with these times and values.
         """
         return [
-            Prediction.around(recording, mean, variance + self.noise_)
+            self._predict(recording, mean, variance)
             for recording, mean, variance in self._infer_recordings(recordings)
         ]
 
-    def leave_one_out(self, recordings: Sequence[Recording]) -> list[Array]:
-        """Return the squared errors over variances of visible entries, each left out: (N, D).
+    def leave_one_out(self, recordings: Sequence[Recording]) -> list[tuple[Prediction, Array]]:
+        """Return the posterior of recordings, and the errors of visible entries left out: (N, D).
 
-        An entry is predicted from all others, with the parameters kept; NaN marks hidden ones. It
-        raises what `impute` raises. Errors of a recording that registration has moved mean nothing.
+        These are squared errors over variances. An entry is predicted from all others, with the
+        parameters kept; NaN marks hidden ones. It raises what `impute` raises. Errors of a
+        recording that registration has moved mean nothing.
         """
         return [
-            leave_one_out_ratios(recording, mean, variance, self.noise_, self.scaling_.scale)
+            (
+                self._predict(recording, mean, variance),
+                leave_one_out_ratios(recording, mean, variance, self.noise_, self.scaling_.scale),
+            )
             for recording, mean, variance in self._infer_recordings(recordings)
         ]
+
+    def _predict(
+        self, recording: Recording, mean: FrameByChannel, variance: FrameByChannel
+    ) -> Prediction:
+        """Return the prediction of observations, from that of the noise-free curve."""
+        return Prediction.around(recording, mean, variance + self.noise_)
 
     def impute_held_out(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the posterior of recordings given to `fit` of which more is hidden.
@@ -383,7 +393,7 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         with conditioned.threaded(self.n_jobs) as process:
             curve = process.reduction.replicates[number]
             ((mean, variance),) = process.infer([curve], [shown.times])
-        return Prediction.around(shown, mean, variance + self.noise_)
+        return self._predict(shown, mean, variance)
 
     def _infer_curve(self, curve: Curve, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the posterior mean and variance of a curve, such as the trend: (M, D) each."""

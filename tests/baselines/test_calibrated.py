@@ -230,7 +230,8 @@ class LeavesOut(FixedVariance):
     """Is right of entries that are left out one by one, and errs in held-out gaps."""
 
     def leave_one_out(self, recordings):
-        return [np.where(recording.visible, 1.0, np.nan) for recording in recordings]
+        ratios = [np.where(recording.visible, 1.0, np.nan) for recording in recordings]
+        return list(zip(self.impute(recordings), ratios, strict=True))
 
     def impute_held_out(self, recordings):
         return [Prediction(each.mean + 10.0, each.variance) for each in self.impute(recordings)]

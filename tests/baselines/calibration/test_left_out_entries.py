@@ -57,7 +57,7 @@ def without(model, recording, entry):
 def test_the_closed_form_is_that_of_leaving_each_entry_out(model, solver, recordings):
     fitted = model(max_iter=5, solver=solver).fit(recordings)
     for recording in recordings[2:]:
-        (ratios,) = fitted.leave_one_out([recording])
+        ((_, ratios),) = fitted.leave_one_out([recording])
         np.testing.assert_array_equal(np.isfinite(ratios), recording.visible)
         expected = [without(fitted, recording, tuple(e)) for e in np.argwhere(recording.visible)]
         np.testing.assert_allclose(ratios[recording.visible], expected, rtol=1e-6)
@@ -81,11 +81,11 @@ def test_predictions_of_held_out_gaps_are_those_of_dense_inference(model, solver
 @pytest.mark.parametrize("model", [GPIndependent, HGP])
 def test_channels_side_by_side_have_their_own_errors(model, recordings):
     fitted = model(max_iter=5).fit(recordings)
-    (ratios,) = fitted.leave_one_out(recordings[3:])
+    ((_, ratios),) = fitted.leave_one_out(recordings[3:])
     for column, channel, single in zip(
         ratios.T, recordings[3].channels, fitted.models_, strict=True
     ):
-        (alone,) = single.leave_one_out([recordings[3].select([channel])])
+        ((_, alone),) = single.leave_one_out([recordings[3].select([channel])])
         np.testing.assert_array_equal(column, alone[:, 0])
 
 
@@ -135,7 +135,7 @@ def test_entries_of_which_rounding_may_decide_do_not_count(recordings):
     model = MOHGP(max_iter=40, solver="latent-split").fit((given, *walks[1:]))
     little = replace(model.parameters_, log_noise=np.log([5e-5, 1e-2]))
     model.parameters_, model.process_ = little, replace(model.process_, parameters=little)
-    (ratios,) = model.leave_one_out([given])
+    ((_, ratios),) = model.leave_one_out([given])
     counted = np.isfinite(ratios)
     seen = given.visible
     assert counted[:, 1][seen[:, 1]].all()
@@ -241,7 +241,7 @@ def test_gaps_are_held_out_where_entries_left_out_one_by_one_say_little():
         others = [recording(f"staying {number}", 0.3) for number in range(6)]
         given = full.hide(hidden)
         model = Calibrated(GPIndependent(kernel="matern12", max_iter=20)).fit((*others, given))
-        (ratios,), (filled,) = model.leave_one_out([given]), model.impute([given])
+        ((_, ratios),), (filled,) = model.leave_one_out([given]), model.impute([given])
         (nominal,), factors = model.model_.impute([given]), leave_one_out_factors(~hidden, ratios)
         one_by_one = replace(nominal, variance=nominal.variance * factors)
         np.testing.assert_array_equal(filled.mean, one_by_one.mean)
@@ -251,3 +251,12 @@ def test_gaps_are_held_out_where_entries_left_out_one_by_one_say_little():
     one_by_one, calibrated = np.mean(covered, axis=0)
     assert one_by_one < 0.8
     assert calibrated > 0.85
+
+
+def test_what_is_predicted_beside_left_out_entries_is_the_posterior(recordings):
+    fitted = MOHGP(max_iter=5).fit(recordings)
+    ((prediction, _),), (posterior,) = (
+        answer([recordings[3]]) for answer in (fitted.leave_one_out, fitted.impute)
+    )
+    np.testing.assert_array_equal(prediction.mean, posterior.mean)
+    np.testing.assert_array_equal(prediction.variance, posterior.variance)
