@@ -54,6 +54,10 @@ def registered_digests() -> dict[str, str]:
     return read_digests(Path(__file__).with_name("cmu_digests.tsv"))
 
 
+_File = tuple[Path, bytes]
+"""A file and its content."""
+
+
 class CMULibrary(Library):
     """Recordings of the CMU database by key, ``SUBJECT_TRIAL``.
 
@@ -135,7 +139,7 @@ class CMULibrary(Library):
         AcclaimError
             If a file cannot be parsed.
         """
-        skeleton_file, motion_file = self._find_intact_files(key)
+        (skeleton_file, _), (motion_file, _) = self._read_intact_files(key)
         return read_motion(motion_file, read_skeleton(skeleton_file))
 
     def skeleton(self, key: str) -> Skeleton:
@@ -146,12 +150,13 @@ class CMULibrary(Library):
         FileNotFoundError, DigestMismatch, AcclaimError
             As `motion`.
         """
-        return read_skeleton(self._find_intact_files(key)[0])
+        (skeleton_file, _), _ = self._read_intact_files(key)
+        return read_skeleton(skeleton_file)
 
     def digest(self, key: str) -> str:
         """Return the SHA-256 of the .asf followed by the .amc, line ends normalised to LF."""
-        files = self._find_intact_files(key)
-        return sha256(b"".join(with_unix_line_ends(f.read_bytes()) for f in files)).hexdigest()
+        files = self._read_intact_files(key)
+        return sha256(b"".join(with_unix_line_ends(data) for _, data in files)).hexdigest()
 
     def fetch(self, key: str) -> None:
         """Download the files that are not here, and those in the cache that are wrong.
@@ -170,7 +175,7 @@ class CMULibrary(Library):
                 check = partial(self.digests.check, path, renewal=_renewal(key))
                 self._downloader().fetch(path, check)
         try:
-            self._find_intact_files(key)
+            self._read_intact_files(key)
         except AcclaimError as problem:
             self._discard_new_downloads(key)
             raise FetchError(
@@ -205,29 +210,30 @@ class CMULibrary(Library):
         files = (folder / path for folder in self._list_folders())
         return next((file for file in files if file.is_file()), None)
 
-    def _find_intact_files(self, key: str) -> tuple[Path, Path]:
+    def _read_intact_files(self, key: str) -> tuple[_File, _File]:
         """Return both files; what nobody has seen before is recorded once both were read."""
-        paths = _paths(key)
-        files = self._find_intact_file(key, paths[0]), self._find_intact_file(key, paths[1])
-        new = [i for i in range(2) if self.digests.is_new(paths[i], files[i].read_bytes())]
+        found = [(path, *self._read_intact_file(key, path)) for path in _paths(key)]
+        (_, skeleton, _), (_, motion, _) = found
+        new = [(path, file) for path, file, is_new in found if is_new]
         if new:
-            read_motion(files[1], read_skeleton(files[0]))
-        for i in new:
-            self.digests.record(paths[i], files[i].read_bytes(), str(files[i]))
-        return files
+            read_motion(motion[0], read_skeleton(skeleton[0]))
+        for path, (file, data) in new:
+            self.digests.record(path, data, str(file))
+        return skeleton, motion
 
-    def _find_intact_file(self, key: str, path: str) -> Path:
+    def _read_intact_file(self, key: str, path: str) -> tuple[_File, bool]:
+        """Return a file, and whether nobody has seen its content before."""
         file = self._find(path)
         if file is None:
             raise FileNotFoundError(
                 f"{path} is in none of {', '.join(map(str, self._list_folders()))}"
             )
-        self.digests.check(path, file.read_bytes(), str(file), _renewal(key))
-        return file
+        data = file.read_bytes()
+        return (file, data), self.digests.check(path, data, str(file), _renewal(key))
 
     def _discard_wrong_download(self, key: str, path: str) -> None:
         try:
-            self._find_intact_file(key, path)
+            self._read_intact_file(key, path)
         except FileNotFoundError:
             return
         except DigestMismatch as problem:
@@ -237,8 +243,8 @@ class CMULibrary(Library):
 
     def _discard_new_downloads(self, key: str) -> None:
         for path in _paths(key):
-            file = self.cache_dir / path
-            if file == self._find(path) and self.digests.is_new(path, file.read_bytes()):
+            (file, _), is_new = self._read_intact_file(key, path)
+            if is_new and self.cache_dir in file.parents:
                 file.unlink()
 
 

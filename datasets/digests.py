@@ -98,8 +98,10 @@ class DigestRegistry:
         self.pins = pins
         self.diverse = diverse
 
-    def check(self, path: str, data: bytes, file: str, renewal: str) -> None:
-        """Verify the content of ``file``, which claims to be ``path``.
+    def check(self, path: str, data: bytes, file: str, renewal: str) -> bool:
+        """Return whether the content of ``file``, which claims to be ``path``, is new.
+
+        New is what nothing is known of, where no other content is expected.
 
         Parameters
         ----------
@@ -115,23 +117,19 @@ class DigestRegistry:
         DigestMismatch
             If its digest is neither new nor the known or recorded one.
         """
-        expected, got = self._expect(path), _digest(data)
-        if got == expected or self.is_new(path, data):
-            return
-        if path in self.known:
-            raise DigestMismatch(file, str(expected), got)
+        known = self.known.get(path)
+        expected, got = known or read_digests(self.pins).get(path), _digest(data)
+        if expected is None or got == expected or path in self.diverse:
+            return got != expected
+        if known:
+            raise DigestMismatch(file, expected, got)
         raise DigestMismatch(
             file,
-            str(expected),
+            expected,
             got,
             f"expected is the first copy that this machine saw ({self.pins}); if this one is "
             f"right, take it from now on with: {renewal}",
         )
-
-    def is_new(self, path: str, data: bytes) -> bool:
-        """Return whether nothing is known of the content, and no other is expected."""
-        expected = self._expect(path)
-        return expected is None or (path in self.diverse and _digest(data) != expected)
 
     def record(self, path: str, data: bytes, file: str) -> None:
         """Expect this content from now on, unless different copies are in use.
@@ -161,9 +159,6 @@ class DigestRegistry:
         if recorded.keys() & set(paths):
             kept = {path: digest for path, digest in recorded.items() if path not in paths}
             write_text(self.pins, "".join(f"{path}\t{digest}\n" for path, digest in kept.items()))
-
-    def _expect(self, path: str) -> str | None:
-        return (read_digests(self.pins) | dict(self.known)).get(path)
 
 
 def _digest(data: bytes) -> str:

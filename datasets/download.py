@@ -46,7 +46,7 @@ class Downloader:
         self.retries = retries
         self.backoff = backoff
 
-    def fetch(self, path: str, check: Callable[[bytes, str], None]) -> None:
+    def fetch(self, path: str, check: Callable[[bytes, str], object]) -> None:
         """Download one file; ``check`` gets its content and address before it is stored.
 
         Raises

@@ -16,8 +16,7 @@ RENEWAL = "mocapbench data renew a"
 
 def accept(registry, content, file="a.amc"):
     """Check a file, and record it if it is new."""
-    registry.check("a.amc", content, file, RENEWAL)
-    if registry.is_new("a.amc", content):
+    if registry.check("a.amc", content, file, RENEWAL):
         registry.record("a.amc", content, file)
 
 
