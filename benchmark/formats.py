@@ -9,7 +9,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.missing_values import tell_missing
 from mocapbench.benchmark.registry import FORMATS
 from mocapbench.datasets import Format, FormatError, FormatWarning, Recording, unwrap_angles
-from mocapbench.datasets.formats.strays import is_unlabelled
+from mocapbench.datasets.formats.strays import find_unmeasured
 
 __all__ = ["format_for", "read_measured"]
 
@@ -59,7 +59,6 @@ def read_measured(path: str | Path, rate: float | None = None) -> Recording:
     for text in remarks:
         warnings.warn(f"{stated.name}: {text}", FormatWarning, stacklevel=2)
     recording = unwrap_angles(stated.hide(mask))
-    results = file.results(Path(path), recording.channels)
-    others = {*results, *filter(is_unlabelled, recording.channels)}
+    others = find_unmeasured(recording.channels, file.results(Path(path), recording.channels))
     kept = [name for name in recording.channels if name not in others]
     return recording.select(kept) if others and kept else recording

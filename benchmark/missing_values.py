@@ -112,12 +112,16 @@ def _count_frames(frames: Mapping[str, int], where: str, mark: str) -> str:
     """Return a sentence on the markers that are somewhere in some frames, if there are any."""
     if not frames:
         return ""
-    are, each = ("is", "") if len(frames) == 1 else ("are", "up to ")
-    count = each + format_count(max(frames.values()), "frame")
+    are = "is" if len(frames) == 1 else "are"
     return (
-        f"{join_names([*frames], _NAMED)} {are} {where.format(count)}: if that marks missing "
-        f"values, fill --missing {mark} fills them."
+        f"{join_names([*frames], _NAMED)} {are} {where.format(_most_frames(frames))}: if that marks "
+        f"missing values, fill --missing {mark} fills them."
     )
+
+
+def _most_frames(frames: Mapping[str, int]) -> str:
+    """Return the most frames of a marker, in words that hold for all of them."""
+    return "up to " * (len(frames) > 1) + format_count(max(frames.values()), "frame")
 
 
 def _tell_zeros(recording: Recording) -> Told:
@@ -132,17 +136,16 @@ def _tell_zeros(recording: Recording) -> Told:
         for name, at in rows.items()
         if _is_far(recording.values[:, list(markers[name])], at)
     }
-    mask = np.zeros(recording.values.shape, dtype=bool)
+    mask = _nothing(recording)
     if not far:
         return mask, ()
     for places in map(list, markers.values()):
         mask[:, places] = (recording.values[:, places] == 0.0).all(axis=1)[:, None]
     are, it_is = ("is", "it is") if len(far) == 1 else ("are", "they are")
-    frames = "up to " * (len(far) > 1) + format_count(max(far.values()), "frame")
     return (
         mask,
         (
-            f"{join_names([*far], _NAMED)} {are} exactly 0, 0, 0 in {frames}, "
+            f"{join_names([*far], _NAMED)} {are} exactly 0, 0, 0 in {_most_frames(far)}, "
             f"far from where {it_is} before and after: {_READ_AS_MISSING}",
         ),
     )
@@ -206,7 +209,7 @@ def _is_nines(size: float) -> bool:
 def _tell_held(recording: Recording) -> Told:
     """Tell held values by a sudden end, where the marker leaps to where it has been going."""
     markers = markers_of(recording.channels, recording.units)
-    mask = np.zeros(recording.values.shape, dtype=bool)
+    mask = _nothing(recording)
     told: dict[str, int] = {}
     for name, start, stop, sudden in _find_held(recording):
         if sudden:
@@ -215,12 +218,11 @@ def _tell_held(recording: Recording) -> Told:
     if not told:
         return mask, ()
     keep, leap = ("keeps", "leaps") if len(told) == 1 else ("keep", "leap")
-    frames = "up to " * (len(told) > 1) + format_count(max(told.values()), "frame")
     return (
         mask,
         (
-            f"{join_names([*told], _NAMED)} {keep} the position of the frame before for {frames} "
-            f"while others move, and {leap} on: {_READ_AS_MISSING}",
+            f"{join_names([*told], _NAMED)} {keep} the position of the frame before for "
+            f"{_most_frames(told)} while others move, and {leap} on: {_READ_AS_MISSING}",
         ),
     )
 

@@ -132,28 +132,17 @@ def _fill_file(
     console: LiteralConsole,
 ) -> ExitCode:
     """Fill a file, say why if that is impossible, and return the exit code for it."""
+    name = input_file.path.name
     try:
-        _fill_and_write(input_file, model, workers, budget, outputs, console)
+        with console.status(f"{name}: comparing models") as status:
+            show = status.update if console.is_terminal else _print_now_and_then(console)
+            filled = filling.fill(input_file, model, workers, budget, _make_watch(name, show))
+        page = filling.compose_page(filled, _quote_command())
+        filling.write(filled, outputs, reports.render_filled(page))
     except (UsageError, datasets.FormatError, OSError) as error:
         return explain(error)
-    return ExitCode.OK
-
-
-def _fill_and_write(
-    input_file: InputFile,
-    model: str,
-    workers: Workers,
-    budget: float,
-    outputs: OutputPaths,
-    console: LiteralConsole,
-) -> None:
-    with console.status(f"{input_file.path.name}: comparing models") as status:
-        show = status.update if console.is_terminal else _print_now_and_then(console)
-        watch = _make_watch(input_file.path.name, show)
-        filled = filling.fill(input_file, model, workers, budget, watch)
-    page = filling.compose_page(filled, _quote_command())
-    filling.write(filled, outputs, reports.render_filled(page))
     _print_result(filled, outputs, console)
+    return ExitCode.OK
 
 
 def _make_watch(name: str, show: Callable[[str], object]) -> Callable[[int, int], None]:

@@ -19,7 +19,7 @@ from mocapbench.benchmark.filling.requests.channels import match_channels
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
 from mocapbench.datasets import Format, FormatError, Recording, check_alike
-from mocapbench.datasets.formats.strays import is_unlabelled
+from mocapbench.datasets.formats.strays import find_unmeasured
 
 __all__ = ["InputFile", "read_input_files"]
 
@@ -133,7 +133,7 @@ def _match_channels(other: Recording, recording: Recording, results: Sequence[st
     """
     units = dict(zip(recording.channels, recording.units, strict=True))
     lacking = [name for name in recording.channels if name not in other.channels]
-    if not {*lacking} <= {*filter(is_unlabelled, lacking), *results}:
+    if not {*lacking} <= find_unmeasured(lacking, results):
         return other
     hidden = np.full((len(other.times), len(lacking)), np.nan)
     padded = replace(

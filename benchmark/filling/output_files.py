@@ -74,10 +74,10 @@ def require_writable(source: InputFile, outputs: OutputPaths) -> None:
             "name another folder, or delete it"
         )
     request = source.request
-    stand_ins = request.given.with_values(_hold_nearest(request.given.values))
+    whole = request.given.with_values(_hold_nearest(request.given.values))
     with TemporaryDirectory() as folder:
         copy_path = Path(folder, outputs[0].name)
-        source.format.write(copy_path, stand_ins, like=source.path, replaced=request.target)
+        source.format.write(copy_path, whole, like=source.path, replaced=request.target)
 
 
 def _hold_nearest(values: FrameByChannel) -> FrameByChannel:

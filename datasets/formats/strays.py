@@ -8,8 +8,9 @@ name is ``unlabelled`` here.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
-__all__ = ["is_unlabelled"]
+__all__ = ["find_unmeasured", "is_unlabelled"]
 
 _WORDS = "unlabell?ed|unnamed|unidentified|unassigned|unknown|uname"
 _STRAY = re.compile(
@@ -37,3 +38,15 @@ def is_unlabelled(channel: str) -> bool:
     [False, False, False, False]
     """
     return _STRAY.fullmatch(channel) is not None
+
+
+def find_unmeasured(channels: Iterable[str], results: Iterable[str]) -> set[str]:
+    """Return the channels that are of no named marker or joint.
+
+    Parameters
+    ----------
+    channels : iterable of str
+    results : iterable of str
+        Channels that are results of a model of the body, as the file's format says.
+    """
+    return {*filter(is_unlabelled, channels), *results}

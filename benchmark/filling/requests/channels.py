@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.datasets import Recording
-from mocapbench.datasets.formats.strays import is_unlabelled
+from mocapbench.datasets.formats.strays import find_unmeasured
 
 __all__ = ["match_channels"]
 
@@ -28,7 +28,7 @@ def match_channels(
         If it is not a regular expression, or matches no channel.
     """
     if pattern is None:
-        others = {*filter(is_unlabelled, recording.channels), *results}
+        others = find_unmeasured(recording.channels, results)
         return np.array([name not in others for name in recording.channels], dtype=bool)
     matches = np.array([_matches(pattern, name) for name in recording.channels], dtype=bool)
     if not matches.any():
