@@ -114,8 +114,8 @@ def _count_frames(frames: Mapping[str, int], where: str, mark: str) -> str:
         return ""
     are = "is" if len(frames) == 1 else "are"
     return (
-        f"{join_names([*frames], _NAMED)} {are} {where.format(_most_frames(frames))}: if that marks "
-        f"missing values, fill --missing {mark} fills them."
+        f"{join_names([*frames], _NAMED)} {are} {where.format(_most_frames(frames))}: if that "
+        f"marks missing values, fill --missing {mark} fills them."
     )
 
 

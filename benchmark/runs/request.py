@@ -78,13 +78,14 @@ def list_unmet_needs(request: Request) -> list[str]:
 
 def nameable_entrants(task: Task) -> tuple[Entrant, ...]:
     """Return the entrants, and those without their calibration, which only take part by name."""
-    calibrated = [entrant for entrant in entrants(task) if find_calibration(entrant.model)]
+    listed = entrants(task)
     others = [
         Entrant(entrant.label + UNCALIBRATED, entrant.model + UNCALIBRATED, entrant.parameters)
-        for entrant in calibrated
+        for entrant in listed
+        if find_calibration(entrant.model)
     ]
     taken = {entrant.label for entrant in task.entrants}
-    return (*entrants(task), *(entrant for entrant in others if entrant.label not in taken))
+    return (*listed, *(entrant for entrant in others if entrant.label not in taken))
 
 
 def consistent_tasks(request: Request) -> list[Task]:
@@ -160,15 +161,17 @@ def _check_names(request: Request) -> None:
     tasks = _tasks(request)
     labels = {entrant.label for task in tasks for entrant in task.entrants}
     listed = {*MODELS.names(), *labels}
-    nameable = {
-        e for task in tasks for each in nameable_entrants(task) for e in (each.label, each.model)
-    }
     for name in request.models:
-        if name not in listed | nameable:
+        if name not in listed and not _is_nameable(name, tasks):
             raise UnregisteredNameError(MODELS.kind, name, sorted(listed))
     for wanted in request.cases:
         if not matching_cases(wanted, _case_names(request)):
             raise UnknownNameError("case", wanted, _case_names(request))
+
+
+def _is_nameable(name: str, tasks: Iterable[Task]) -> bool:
+    nameable = (entrant for task in tasks for entrant in nameable_entrants(task))
+    return any(name in {entrant.label, entrant.model} for entrant in nameable)
 
 
 def _tasks(request: Request) -> list[Task]:
