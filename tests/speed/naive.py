@@ -41,8 +41,8 @@ def naive(problem: Problem) -> tuple[float, np.ndarray]:
             by_b.append(_fold(own, _at(kernel.value(lags, scale), time), one_hot))
             slope = _fold(own, _at(kernel.gradient(lags, scale), time), one_hot)
             by_scale.append(np.sum(b * slope))
-        pulled = layer.pull_back(np.array(by_b))
-        leaves += [np.array(by_scale), pulled.weights.ravel(), pulled.kappa_roots.ravel()]
+        pulled = layer.pull_back(np.array(by_scale), np.array(by_b))
+        leaves += [leaf.ravel() for leaf in pulled.leaves]
     noise = np.bincount(output, np.diag(adjoint)) * parameters.noise
     return value, np.concatenate([*leaves, noise])
 

@@ -53,7 +53,8 @@ def stages(tmp_path, request):
     spool.add(bench.archive_at(None), job.digests)
     archive = SpooledArchive(libraries, spool, job.digests)
     problem = bench.TASKS.get(job.address.task).case(job.address.case).problem
-    record, fit, _ = evaluate.evaluate(Work(job, None), config, archive)
+    outcome = evaluate.evaluate(Work(job, None), config, archive)
+    record, fit = outcome.record, outcome.fit
     assert fit is not None
     return {
         "empty call": _nothing,

@@ -101,8 +101,8 @@ def test_the_errors_are_those_of_the_positions(player, bundle):
     for step in (0, 25, 39):
         tab.locator("input[type=range]").fill(str(step))
         means = [
-            np.linalg.norm(motion.positions[step] - truth[step], axis=-1).mean()
-            for motion in picture.motions
+            np.linalg.norm(positions[step] - truth[step], axis=-1).mean()
+            for positions in picture.motions.values()
         ]
         found = [float(cm) for cm in re.findall(r"([\d.]+) cm", said(tab))]
         assert found == pytest.approx(means, abs=0.06)  # shown with one decimal
