@@ -28,9 +28,9 @@ class Clusters:
     labels : ndarray of int, shape (K,)
         The cluster of each recording.
     alignment : mapping of str to ndarray, or None
-        Of a model that aligns: see `alignment_of`.
+        Of a model that aligns: see ``alignment_of``.
     blend : mapping of str to ndarray, or None
-        Of a model that blends styles and has found two or more: see `blend_of`.
+        Of a model that blends styles and has found two or more: see ``blend_of``.
     """
 
     labels: NDArray[np.intp]

@@ -45,7 +45,7 @@ class Internals:
     coregionalisation : mapping of str to ndarray of shape (Q, D, D)
         The matrices B_q of each layer; empty for a model without them.
     latent_space, latent_walks : mapping of str to ndarray, or None
-        See `space_of` and `walks_of`.
+        See ``space_of`` and ``walks_of``.
     """
 
     trend: Trend | None = None

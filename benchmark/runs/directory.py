@@ -58,7 +58,7 @@ _UNREADABLE = (
 
 
 class RunDirectory:
-    """A run directory that is there; `create` makes one.
+    """A run directory that is there; ``create`` makes one.
 
     Parameters
     ----------
