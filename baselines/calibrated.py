@@ -35,8 +35,8 @@ class Calibrated(FrameImputer):
     * ``learns_in_fit = False`` says that it learns when it fills, so that training recordings may
       be held out at no cost.
 
-    All that the model offers besides `impute` is offered by the wrapper, too: ``sample``, ``trend``,
-    ``labels_`` and so on are the model's own.
+    All that the model offers besides `impute` is offered by the wrapper, too: ``sample``,
+    ``trend``, ``labels_`` and so on are the model's own.
 
     Parameters
     ----------

@@ -95,8 +95,8 @@ class TaskPage:
     kind : str
         ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``.
     question : str
-        Name of what the task asks (``QUESTIONS``), under which the page shows it. By default that of
-        its kind; for ``"impute"`` it is ``"hidden-frames"``.
+        Name of what the task asks (``QUESTIONS``), under which the page shows it. By default that
+        of its kind; for ``"impute"`` it is ``"hidden-frames"``.
     short : str
         The title in a word or two, under the heading of the question; by default the title.
     metrics : tuple of str
