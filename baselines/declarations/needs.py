@@ -63,7 +63,7 @@ NEEDS: dict[str, Need] = {
         lambda problem: {"unrelated": problem.control},
     ),
 }
-"""Every need by its name."""
+"""Every need of a model by its name; a new one is one entry here."""
 
 
 def find_met_needs(problem: PosedProblem) -> frozenset[str]:
