@@ -50,7 +50,7 @@ def choose_missing_rule(text: str | None) -> MissingRule:
     Parameters
     ----------
     text : str or None
-        ``zeros``, ``held``, ``none`` or a number; None leaves it to motion (`tell_missing`).
+        ``zeros``, ``held``, ``none`` or a number; None leaves it to motion (``tell_missing``).
 
     Raises
     ------
