@@ -17,6 +17,7 @@ __all__ = ["COMMANDS", "app"]
 
 COMMANDS = {
     "run": "Run the benchmark and write its report.",
+    "inspect": "Say what a technician would look for in your own recordings.",
     "fill": "Fill the gaps of your own recordings.",
     "init": "Write a task file for recordings of your own.",
     "status": "Show how far a run is, also one in another terminal.",

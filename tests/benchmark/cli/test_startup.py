@@ -39,6 +39,7 @@ def _run(*arguments, **environment):
         (("--help",), "Compare two runs, or two models of one run"),
         (("--version",), "mocapbench "),
         (("run", "--help"), "--dry-run"),
+        (("inspect", "--help"), "--json"),
         (("fill", "--help"), "--max-gap"),
         (("status", "--help"), "in another terminal"),
         (("merge", "--help"), "Everything is checked first"),

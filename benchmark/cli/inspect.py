@@ -1,0 +1,79 @@
+"""``mocapbench inspect``: say what a careful technician would look for in the user's recordings."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from itertools import chain
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mocapbench import datasets
+from mocapbench.benchmark import filling, recording_checks
+from mocapbench.benchmark.cli.console import LiteralConsole
+from mocapbench.benchmark.cli.options import Plugins, load_plugins
+from mocapbench.benchmark.errors import ExitCode, UsageError
+
+if TYPE_CHECKING:
+    from mocapbench.benchmark.filling import Reading
+
+__all__ = ["app"]
+
+app = typer.Typer(add_completion=False)
+
+
+@app.command()
+def inspect(
+    files: Annotated[list[Path], typer.Argument(help="The recordings to look at.")],
+    rate: Annotated[
+        float | None, typer.Option(help="Frames per second, in place of what the files say.")
+    ] = None,
+    missing: Annotated[
+        str | None,
+        typer.Option(
+            help="What marks missing values where motion cannot tell: zeros, held, a number, none."
+        ),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print all findings as JSON.")] = False,
+    plugin: Plugins = None,
+) -> None:
+    """Say what a technician would look for in your own recordings.
+
+    Gaps, ends, frames without any marker, and what the file says or marks as missing; of markers
+    also spikes, jumps, swaps, and segments whose length jumps. Found are 69 to 82 % of planted
+    spikes of 20 mm, 96 % of 50 mm and 99 % of 200 mm; 99 % of swaps from one frame to the next, and
+    43 % (near markers) to 76 % (any) in gaps of 0.1 to 0.4 s. In seven of eleven files of
+    markers nothing is named; in CMU's 135_02, 11 spikes, 3 jumps and 12 segments a minute; and in
+    joints of CMU's skeletons 22 spikes and 32 jumps, without hands and feet 15 and 6. Which of
+    these are faults of the recordings is not known.
+    """
+    # Completion need not wait for what loads numerical libraries.
+    from mocapbench.benchmark.missing_values import choose_missing_rule  # noqa: PLC0415
+
+    load_plugins(plugin)
+    reading = filling.Reading(rate, missing=choose_missing_rule(missing))
+    checks = [_check_or_explain(file, reading) for file in files]
+    if as_json:
+        typer.echo(json.dumps(checks, indent=1))
+    else:
+        _show_checks(each for each in checks if "error" not in each)
+    raise typer.Exit(ExitCode.USAGE if any("error" in each for each in checks) else ExitCode.OK)
+
+
+def _check_or_explain(file: Path, reading: Reading) -> dict[str, Any]:
+    """Return the check of a file, or why it cannot be read, which is said, too."""
+    from mocapbench.benchmark.cli.failures import explain  # noqa: PLC0415
+
+    try:
+        return recording_checks.check_file(file, reading)
+    except (datasets.FormatError, UsageError, OSError) as error:
+        explain(error)
+        return {"file": str(file), "error": str(error)}
+
+
+def _show_checks(checks: Iterable[dict[str, Any]]) -> None:
+    console = LiteralConsole()
+    for line in chain.from_iterable(map(recording_checks.describe_check, checks)):
+        console.print(line, soft_wrap=True, highlight=False)

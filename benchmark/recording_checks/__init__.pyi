@@ -1,0 +1,3 @@
+from .file_check import check_file, describe_check
+
+__all__ = ["check_file", "describe_check"]

@@ -1,0 +1,63 @@
+"""Visibility: gaps of markers and of other channels, their ends, and frames without any marker."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pandas as pd
+
+from mocapbench.baselines.common.markers import markers_of
+from mocapbench.basics.arrays import Mask
+from mocapbench.basics.gaps import run_bounds
+from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
+from mocapbench.datasets import Recording
+
+__all__ = ["find_hidden"]
+
+
+def find_hidden(recording: Recording) -> pd.DataFrame:
+    """Return where markers, and channels of none, are hidden, and frames in which all are.
+
+    Returns
+    -------
+    DataFrame
+        A row each with the kind ``gap``; ``before`` the first frame in which a marker is seen or
+        ``after`` the last; ``never`` where it is seen in none; and ``empty`` where nothing is seen.
+        A marker of which one coordinate is hidden is not seen.
+    """
+    hidden = _hide_whole(recording)
+    n_frames = len(recording.times)
+    rows = [
+        (_name_kind(start, stop, n_frames), (name,), start, stop, np.nan)
+        for name, frames in hidden
+        for start, stop in run_bounds(frames).tolist()
+    ]
+    if hidden:
+        nothing = np.all([frames for _, frames in hidden], axis=0)
+        rows += [("empty", (), *bounds, np.nan) for bounds in run_bounds(nothing).tolist()]
+    return tabulate_findings(rows)
+
+
+def _hide_whole(recording: Recording) -> list[tuple[str, Mask]]:
+    """Return the frames (N,) in which each marker, or channel of none, is hidden."""
+    return [
+        (name, np.asarray(~recording.visible[:, places].all(axis=1)))
+        for name, places in _name_places(recording)
+    ]
+
+
+def _name_places(recording: Recording) -> Iterator[tuple[str, list[int]]]:
+    """Yield markers with the places of their coordinates, then channels that are of none."""
+    markers = markers_of(recording.channels, recording.units)
+    yield from ((name, list(places)) for name, places in markers.items())
+    taken = {place for places in markers.values() for place in places}
+    for place, channel in enumerate(recording.channels):
+        if place not in taken:
+            yield channel, [place]
+
+
+def _name_kind(start: int, stop: int, n_frames: int) -> str:
+    if stop == n_frames:
+        return "after" if start else "never"
+    return "gap" if start else "before"
