@@ -44,6 +44,7 @@ def test_a_walk_is_filled_by_what_has_learnt_walks():
     assert error < 0.1 * np.abs(spline.mean - truth).max()
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("seed", range(3))
 def test_few_points_of_smooth_curves_are_filled_as_well_as_by_a_gaussian_process(seed):
@@ -60,6 +61,7 @@ def test_few_points_of_smooth_curves_are_filled_as_well_as_by_a_gaussian_process
     assert errors[0] < 1.2 * errors[1]
 
 
+@pytest.mark.slow
 def test_where_a_body_is_and_how_it_moves_have_weights_of_their_own():
     """A walk crosses the room: errors of a few centimetres are small beside how far it goes."""
     angle = 2 * np.pi * np.arange(90) / 20.3
@@ -88,6 +90,7 @@ def test_someone_who_stands_still_is_filled_no_worse_than_by_interpolation():
     assert error < 1.21 * reference
 
 
+@pytest.mark.slow
 def test_nothing_is_random_and_neither_order_nor_company_matters():
     here = MODEL.impute(GIVEN[:1])[0]
     there = BestOf().fit(TRAINING[::-1]).impute([GIVEN[2], GIVEN[0]])[1]

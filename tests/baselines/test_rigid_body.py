@@ -55,6 +55,7 @@ def test_markers_of_a_rigid_body_are_where_it_takes_them(hidden, seed):
     np.testing.assert_allclose(filled(places, hidden), recording(places).values, atol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hidden", GAPS)
 @given(seed=seeds)
 def test_it_does_not_depend_on_the_axes_and_the_unit(hidden, seed):

@@ -91,6 +91,7 @@ def test_trends_of_groups_condition_the_joint_gaussian(group, fitted, recordings
     np.testing.assert_allclose(variance, expected, rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_imputations_condition_the_joint_gaussian(fitted, recordings):
     for recording, prediction in zip(recordings, fitted.impute(recordings), strict=True):
         leaf = (*TREE[recording.name], recording.name)

@@ -83,6 +83,7 @@ class NoDocstring(Imputer):
         return []
 
 
+@pytest.mark.slow
 def test_a_third_party_package_gets_pages_too(monkeypatch, goldens, without_recordings):
     monkeypatch.syspath_prepend(str(EXAMPLE))
     model, task, metric = (

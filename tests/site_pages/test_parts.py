@@ -34,6 +34,7 @@ def test_styles_have_the_colours_of_both_themes():
     assert {name for name in used if not name.startswith("--pst-")} <= names[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lacking", ["golf-swings", "toy-synthesis"])
 def test_a_task_that_quick_lacks_is_shown_by_smoke(goldens, tmp_path, lacking):
     copied = shutil.copytree(goldens, tmp_path / "metrics")

@@ -35,6 +35,7 @@ def check(result, expected):
     np.testing.assert_allclose(gradient, slope, rtol=1e-6, atol=1e-6 * np.abs(slope).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", TOY)
 @pytest.mark.parametrize("how", ["naive", "dense", "latent-split", "auto"])
 def test_toy(benchmark, size, how):

@@ -110,6 +110,7 @@ def limbs(name, seed):
     return Recording(name, times, values, tuple("abcdefgh"), ("deg",) * 8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", [LDS(), FAM(n_restarts=1, random_state=0), LowRank()])
 def test_intervals_of_a_stranger_s_lost_channels_hold_most_of_the_truth(model):
     calibrated, nominal = [], []

@@ -1,6 +1,7 @@
 """Gaps in all channels, and others, are held out and weighed apart."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -70,6 +71,7 @@ def test_what_is_hidden_in_all_channels_by_chance_is_no_gap_of_all():
     np.testing.assert_array_equal(whole_gaps(hidden), [[30, 31, 32]])
 
 
+@pytest.mark.slow
 def test_gaps_in_channels_do_not_choose_what_fills_whole_frames():
     """Channels follow each other closely, so that others tell a hidden one, if any is visible."""
     rng, times = np.random.default_rng(3), np.arange(360)[:, None] / 100

@@ -19,6 +19,8 @@ from mocapbench.benchmark.cli.commands import COMMANDS
 from mocapbench.benchmark.cli.main import main
 from mocapbench.benchmark.errors import ExitCode
 
+pytestmark = pytest.mark.slow
+
 SCRIPT = "from mocapbench.benchmark.cli.main import main; main()"
 SMOKE = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
 FAST = (*SMOKE, "--models", "trivial,linear", "--folds", "1", "--jobs", "1")

@@ -72,6 +72,7 @@ def test_the_table_has_every_filled_entry(cli, walk, out):
     assert all(float(row["sd"]) > 0 for row in table)
 
 
+@pytest.mark.slow
 def test_the_best_model_is_chosen_and_the_page_shows_the_ranking(cli, walk, out):
     assert cli("fill", walk, "--budget", "4", "--out", out) == 0
     page = (out / "walk.csv.html").read_text()
@@ -121,6 +122,7 @@ def test_a_folder_that_cannot_be_written_to_is_refused_before_anything_is_tried(
     assert not (tmp_path / "new").exists()
 
 
+@pytest.mark.slow
 def test_a_file_without_room_for_hold_outs_is_refused_and_others_are_filled(
     cli, walk, tmp_path, out
 ):
@@ -523,6 +525,7 @@ def test_likelihoods_that_are_not_there_are_refused(cli, walk, out):
     assert not out.exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["linear", "best"])
 def test_rows_that_are_missing_are_said_or_added_and_filled(cli, walk, out, tmp_path, model):
     lines = walk.read_text().splitlines(keepends=True)
@@ -639,6 +642,7 @@ def test_marks_of_missing_values_at_the_ends_stay(cli, tmp_path, out, mark):
     assert [line.split(",")[4:] for line in after] == [line.split(",")[4:] for line in before]
 
 
+@pytest.mark.slow
 def test_a_file_that_is_open_at_its_ends_only_is_left_out_with_the_option(cli, walk, tmp_path, out):
     ends = save(tmp_path / "ends.csv", rows(gap=range(9)))
     assert cli("fill", ends, "--model", "linear", "--out", out) == 2
@@ -653,6 +657,7 @@ def test_a_file_that_is_open_at_its_ends_only_is_left_out_with_the_option(cli, w
     assert CSVFormat().read(out / "ends.csv").visible.all()
 
 
+@pytest.mark.slow
 def test_a_model_is_chosen_by_the_gaps_and_not_by_the_ends(cli, tmp_path, out):
     """Somebody is there for half of the time, so that copies of the ends would fit nowhere."""
     path = save(tmp_path / "a.csv", rows(gap={*range(40), *range(55, 60), *range(80, 120)}))

@@ -10,6 +10,8 @@ from distributed import LocalCluster
 from hostile_folder import HostileFolder, write_program
 from own_files import write_csv
 
+pytestmark = pytest.mark.slow
+
 SMOKE = ("run", "--offline", "--profile", "smoke", "--folds", "1")
 TOY = (*SMOKE, "--tasks", "toy-interpolation-1", "--models", "trivial,linear")
 

@@ -337,6 +337,7 @@ def test_export_holds_one_row_per_score(cli, records, tmp_path):
     pd.testing.assert_frame_equal(table, text, check_dtype=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("edits", [1, 3])
 def test_an_export_holds_the_last_run_alone(cli, tmp_path, edits):
     """As the other commands do: after a plug-in was edited, each fold and label has one row."""
@@ -465,6 +466,7 @@ def test_a_run_that_another_one_writes_to_is_refused(cli, tmp_path):
     assert cli(*FAST, "--models", "trivial", "--folds", 1, "--out", tmp_path / "run") == 0
 
 
+@pytest.mark.slow
 def test_the_lock_does_not_outlive_a_killed_process(tmp_path):
     store = RunDirectory.create(tmp_path)
     script = (

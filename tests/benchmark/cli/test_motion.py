@@ -12,6 +12,8 @@ from mocapbench.benchmark import JointAngles, RunDirectory, archive_at
 from mocapbench.benchmark.cli.main import main
 from mocapbench.datasets import AcclaimFormat, CSVFormat
 
+pytestmark = pytest.mark.slow
+
 FILL, WALKS = "upper-body-missing", "synthetic walks"
 CELL = f"{FILL}/{WALKS}/nn"
 SAMPLE = "walking-synthesis/synthetic/hgp"

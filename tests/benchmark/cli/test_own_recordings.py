@@ -12,6 +12,8 @@ from own_files import write_csv as write_waves
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.directory import RunDirectory
 
+pytestmark = pytest.mark.slow
+
 LEGS = ("lfemur.rx", "lfemur.ry", "ltibia.rx", "rfemur.rx", "rtibia.rx")
 WAYS = {
     "frames": 'frames = ["30:36", "50:60"]\nchannels = ["lfemur.*"]',

@@ -87,6 +87,7 @@ def test_completion_in_a_shell_loads_no_numerical_library(words, expected):
     assert loaded == []
 
 
+@pytest.mark.slow
 def test_what_computes_does_load_them():
     """Else the tests above would prove nothing."""
     code, printed, loaded = _run("list", "models")

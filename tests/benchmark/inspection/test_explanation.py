@@ -288,6 +288,7 @@ def test_of_jobs_that_share_predictions_one_fits(world):
     assert steps == [Step.FIT, Step.FIT, Step.SCORE, Step.SCORE]
 
 
+@pytest.mark.slow
 def test_thousands_of_jobs_are_explained_in_a_few_lines(world):
     archive, metric = archive_at(None), METRICS.get("mse")
     jobs = plan(Request("quick", metrics=("mse",)), archive)

@@ -73,6 +73,7 @@ def test_the_order_of_a_set_does_not_count():
     assert describe_value(set(names), ()) == describe_value(frozenset(backwards), ())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("value", [object(), iter([1]), pd.DataFrame({"a": range(1000)})])
 def test_what_cannot_be_told_apart_is_refused(value):
     with pytest.raises(UsageError, match=r"expected arguments .* use a dataclass"):

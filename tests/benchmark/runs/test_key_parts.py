@@ -66,6 +66,7 @@ def test_one_change_is_one_part(fitted, scored, data):
     assert differing == [expected[name]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("profile", ["smoke", "quick"])
 def test_within_a_row_each_key_has_its_own_parts(profile):
     archive = archive_at(None)

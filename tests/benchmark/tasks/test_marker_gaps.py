@@ -47,6 +47,7 @@ def test_gaps_of_generated_motion_are_as_long_as_declared(posed, case, fold):
     check_gaps(posed("marker-gaps", case, fold), TASK.case(case))
 
 
+@pytest.mark.slow
 @pytest.mark.recordings
 @pytest.mark.skipif("MOCAPBENCH_DATA" not in os.environ, reason="names no recordings")
 @pytest.mark.parametrize("fold", range(4))

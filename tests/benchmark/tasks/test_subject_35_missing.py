@@ -88,6 +88,7 @@ def test_nearest_neighbours_err_as_published(real, label):
     assert [f"{error:.2f}" for error in errors] == [f"{p:.2f}" for p in PRINTED[case, label]]
 
 
+@pytest.mark.slow
 @pytest.mark.recordings
 def test_kriging_over_channels_is_ahead_of_all_that_is_published(real):
     part, problem = real

@@ -200,6 +200,7 @@ def test_few_cells_tell_a_sampler_that_collapses(check, ratios, verdict):
     assert verdicts(check(entrants, cases=("one",)))["one"] == verdict
 
 
+@pytest.mark.slow
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=8))
 def test_a_decision_follows_from_the_interval_and_the_number_of_cells(check, mlc):

@@ -6,6 +6,8 @@ import pytest
 
 from mocapbench.reports.text import cell_anchor
 
+pytestmark = pytest.mark.slow
+
 pytest.importorskip("axe_playwright_python", reason="axe-playwright-python is not installed")
 
 VIEWS = [(width, scheme) for width in (390, 1280) for scheme in ("light", "dark")]

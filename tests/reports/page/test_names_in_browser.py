@@ -7,6 +7,8 @@ import pytest
 from mocapbench.reports import render
 from mocapbench.reports.bundle.model_info import ModelInfo
 
+pytestmark = pytest.mark.slow
+
 SENTENCE = "Interpolate each channel with a smooth curve through its visible frames."
 IN_VIEW = """
 sheet => {

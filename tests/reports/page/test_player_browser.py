@@ -5,6 +5,8 @@ import re
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.slow
+
 PLAYER = ".player"
 STILL_FRAMES = 60
 MOVES = "drawing => { window.before = drawing.toDataURL() }"

@@ -7,6 +7,8 @@ from unicodedata import normalize
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 pypdf = pytest.importorskip("pypdf", reason="pypdf is not installed")
 
 SHOWN = """

@@ -12,6 +12,8 @@ import pytest
 from mocapbench.reports import render
 from mocapbench.reports.bundle.model_info import ModelInfo
 
+pytestmark = pytest.mark.slow
+
 TABLE = "#toy-interpolation-1-mse"
 TASK = "toy-interpolation-1"
 FAMILIES = {

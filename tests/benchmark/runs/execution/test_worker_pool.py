@@ -28,6 +28,7 @@ def test_a_worker_is_replaced_after_so_many_jobs_and_none_is_lost(monkeypatch, p
     assert [pids.count(pid) for pid in dict.fromkeys(pids)] == [3, 3, 2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", [0, 7])
 def test_a_worker_that_exits_in_a_job_ends_that_job_and_no_other(code, pool):
     workers = pool(1)

@@ -50,6 +50,7 @@ def readers(computer):
     return [read_by_c3d] if computer == "MIPS" else [read_by_c3d, read_by_ezc3d]
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(values=positions(), fills=st.integers(-32767, 32767), first=st.integers(1, 900))
 def test_a_recording_reads_and_fills_alike_whatever_computer_wrote_it(values, fills, first):
