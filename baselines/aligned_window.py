@@ -20,7 +20,7 @@ from mocapbench.baselines.common.recordings import hidden_frames, stretches
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array, Index
-from mocapbench.basics.gaps import runs
+from mocapbench.basics.mask_runs import runs
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["AlignedWindow"]

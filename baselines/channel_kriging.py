@@ -15,7 +15,7 @@ from mocapbench.baselines.common.checks import check_given, check_recordings, po
 from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.kriging.channel_process import learn_channel_process, predict_channels
-from mocapbench.baselines.kriging.left_out_gaps import DescribedFrames
+from mocapbench.baselines.kriging.held_out_stretches import DescribedFrames
 from mocapbench.baselines.kriging.stacked import (
     describe_by_channels,
     stack_frames,
@@ -23,7 +23,7 @@ from mocapbench.baselines.kriging.stacked import (
 )
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array, Index
-from mocapbench.basics.gaps import hidden_together, runs
+from mocapbench.basics.mask_runs import hidden_together, runs
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["ChannelKriging"]
@@ -44,7 +44,7 @@ class ChannelKriging(Imputer, Inductive):
     recordings differ, and γ the variance of a drift over time. A visible channel counts the more,
     the larger its coefficients in a ridge regression of the hidden ones on all visible ones.
 
-    The six parameters are those that best predict gaps which are left out of what is visible, as
+    The six parameters are those that best predict gaps that are held out of what is visible, as
     long as those to fill. These gaps say, too, how far variances are right. Frames of all
     recordings, those of the recording to fill included, are what the process is conditioned on.
     Channels hidden in the same frames are filled together, with parameters of their own; where
@@ -63,7 +63,7 @@ class ChannelKriging(Imputer, Inductive):
     ----------
     Not from a publication. The Gaussian-process regression is that of C. E. Rasmussen and C. K. I.
     Williams (2006), Gaussian Processes for Machine Learning, MIT Press, eq. (2.25) and (2.26), and
-    what is left out is predicted as in its §5.4.2; the task for which it was written is that of
+    what is held out is predicted as in its §5.4.2; the task for which it was written is that of
     G. W. Taylor, G. E. Hinton and S. T. Roweis (2007), Modeling Human Motion Using Binary Latent
     Variables, NIPS 19.
 

@@ -23,7 +23,7 @@ from mocapbench.baselines.common.transitions import Steps, fill_gap
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.gaps import runs
+from mocapbench.basics.mask_runs import runs
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["KNN"]

@@ -17,7 +17,7 @@ from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.kriging.marker_gap import MarkerGap
 from mocapbench.baselines.kriging.own_course import courses_in_gaps
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
-from mocapbench.basics.gaps import runs
+from mocapbench.basics.mask_runs import runs
 from mocapbench.datasets import Recording
 
 __all__ = ["MarkerKriging"]
@@ -33,7 +33,7 @@ class MarkerKriging(Imputer, Inductive):
     of the shape of these markers and of time, learnt from the frames in which it is visible.
     Recordings given to `fit` are used besides, as far as they show the same markers.
 
-    Its parameters are those that best predict left-out gaps of the same length, in closed form.
+    Its parameters are those that best predict held-out gaps of the same length, in closed form.
     Intervals are as wide as errors were there.
 
     The coordinates of a marker are channels such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z`` that are
@@ -70,7 +70,7 @@ class MarkerKriging(Imputer, Inductive):
 
     References
     ----------
-    Not from a publication. ``docs/filling.md`` has what was tried. The errors of what is left out
+    Not from a publication. ``docs/filling.md`` has what was tried. The errors of what is held out
     are those of C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for Machine
     Learning, MIT Press, §5.4.2.
 

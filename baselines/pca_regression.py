@@ -13,7 +13,7 @@ from mocapbench.baselines.common.scaling import OwnMeans
 from mocapbench.baselines.common.validation import check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array, Mask
-from mocapbench.basics.gaps import frames_alike
+from mocapbench.basics.mask_runs import frames_alike
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["PCARegression"]

@@ -23,7 +23,7 @@ from mocapbench.baselines.interpolation import PchipImputer
 from mocapbench.baselines.kriging.marker_gap import fit_body
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.gaps import runs
+from mocapbench.basics.mask_runs import runs
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["RigidBody"]

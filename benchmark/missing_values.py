@@ -15,7 +15,7 @@ import numpy as np
 
 from mocapbench.baselines.common.markers import markers_of
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.gaps import run_bounds
+from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.basics.words import format_count, join_names
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.datasets import Mask, Recording

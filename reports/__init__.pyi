@@ -9,8 +9,8 @@ from .bundle.task_page import Figure, RowNotes, TaskPage
 from .filling.curves import FilledCurve
 from .filling.page import FilledPage, render_filled
 from .page.report import render
-from .slopes.render import render_changes
-from .slopes.values import Change, ChangeVerdict, RunChanges, ScoreChange
+from .run_comparison.render import render_changes
+from .run_comparison.values import Change, ChangeVerdict, RunChanges, ScoreChange
 from .spreadsheet import csv_text
 
 __all__ = [

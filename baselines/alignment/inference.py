@@ -27,7 +27,7 @@ from mocapbench.baselines.alignment.updates import (
 )
 from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.gaps import frames_alike
+from mocapbench.basics.mask_runs import frames_alike
 
 __all__ = ["correct_means", "error_correlation", "infer_path", "refine_state"]
 

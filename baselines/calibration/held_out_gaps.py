@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation
 
-from mocapbench.basics.gaps import (
+from mocapbench.basics.mask_runs import (
     MOST_HIDDEN,
     distances,
     free_starts,

@@ -11,7 +11,7 @@ import numpy as np
 from mocapbench.baselines.calibration.error_ratios import mean_ratios
 from mocapbench.baselines.calibration.variance_check import STEEPEST
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.gaps import distances
+from mocapbench.basics.mask_runs import distances
 from mocapbench.datasets import Mask
 
 __all__ = ["leave_one_out_factors"]

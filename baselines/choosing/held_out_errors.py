@@ -18,7 +18,7 @@ from mocapbench.baselines.choosing.parts import EVERYTHING, GAPS, Part
 from mocapbench.baselines.common.checks import pool
 from mocapbench.baselines.common.scaling import unit_scales
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.gaps import runs
+from mocapbench.basics.mask_runs import runs
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["HeldOutErrors", "Products"]

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.basics.gaps import whole_gaps
+from mocapbench.basics.mask_runs import whole_gaps
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["EVERYTHING", "GAPS", "Part", "parts_of"]

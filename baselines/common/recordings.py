@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.basics.arrays import Array, Mask
-from mocapbench.basics.gaps import runs
+from mocapbench.basics.mask_runs import runs
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
 __all__ = [

@@ -6,9 +6,9 @@ Whole frames:
 * `paths`: training recordings matched with a new one; `mirror_images`: the mirror image of a
   motion, and the processes of what a path leaves unexplained of both.
 
-Processes whose parameters predict best what is left out:
+Processes whose parameters best predict what is held out:
 
-* `left_out_gaps`: errors in gaps that are left out, and the search for the parameters;
+* `held_out_stretches`: errors in frames that are held out, and the search for the parameters;
 * `stacked`: the frames of several recordings, and which channels say most of others;
   `channel_process`: the process of channels that others show;
 * `marker_gap`: a gap of a marker, seen from a body that moves with others; `marker_process`: the

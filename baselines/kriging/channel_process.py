@@ -24,9 +24,9 @@ import numpy as np
 from sklearn.metrics.pairwise import euclidean_distances
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
-from mocapbench.baselines.kriging.left_out_gaps import (
+from mocapbench.baselines.kriging.held_out_stretches import (
     DescribedFrames,
-    LeftOutGaps,
+    HeldOutStretches,
     add_noise,
     choose_from_both,
     learn_parameters,
@@ -49,7 +49,7 @@ TYPICAL: Array = np.log([1.0, 0.25, 0.3, 0.3, 8.0, 0.2])
 _LEARNT = 150
 """Frames of the recording to fill, and of all others, from which parameters are learnt."""
 _SUPPOSED = 2.0
-"""Gaps that count as erring as the prior has it, beside those that are left out."""
+"""Gaps that count as erring as the prior has it, beside those that are held out."""
 _LEAST = 1e-12
 """Least mean square of a channel that counts."""
 
@@ -123,7 +123,7 @@ def learn_channel_process(
 ) -> tuple[Array, Array]:
     r"""Return the parameters that predict gaps best, and what they imply of each channel.
 
-    Every gap that is left out counts as one frame, since its frames err together, and C
+    Every gap that is held out counts as one frame, since its frames err together, and C
     channels as √C, since some of them err together. The mean ratio :math:`\rho_d` of squared
     errors to variances in G gaps tells the scale of channel d, with an inverse gamma prior by
     which its variance is :math:`s_d^2`: if v is the mean prior variance without a scale, it is
@@ -157,7 +157,7 @@ def learn_channel_process(
     n_gaps, pairs = int(stretch.max()) + 1, ChannelPairs.of(frames, frames)
     weight = n_gaps / len(stretch) / np.sqrt(values.shape[1])
     found = learn_parameters(pairs, values, stretch, TYPICAL, weight)
-    ratios = squares * LeftOutGaps(add_noise(pairs, found), values, stretch).scales
+    ratios = squares * HeldOutStretches(add_noise(pairs, found), values, stretch).scales
     supposed = _SUPPOSED * spread / prior_variances(frames, found).mean()
     return found, np.maximum(ratios + supposed / n_gaps, _LEAST)
 

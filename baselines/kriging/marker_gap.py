@@ -21,7 +21,7 @@ from mocapbench.baselines.common.rigid import (
     least_rotations,
     spans_a_body,
 )
-from mocapbench.baselines.kriging.left_out_gaps import (
+from mocapbench.baselines.kriging.held_out_stretches import (
     DescribedFrames,
     choose_evenly,
     choose_from_both,
@@ -108,7 +108,7 @@ class MarkerGap:
 
     @property
     def _seconds(self) -> float:
-        """Length of the gaps to leave out: twice the time between the frames beside this one."""
+        """Length of the gaps to hold out: twice the time between the frames beside this one."""
         times = self.times[0]
         before, after = max(self.frames[0] - 1, 0), min(self.frames[-1] + 1, len(times) - 1)
         return 2.0 * float(times[after] - times[before])

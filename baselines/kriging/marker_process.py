@@ -9,8 +9,8 @@ The covariance of frames t and t' of recordings r and r', up to scale, is
 
 a constant, another one for each recording, what follows from the shape :math:`\phi` of the markers
 around, a drift with Matérn's once differentiable kernel m, and noise. :math:`\ell, a, \tau,
-\varepsilon` are those that predict gaps best, twice as long as the one to fill, that are left out
-of what is visible (`left_out_gaps`). Each such gap counts as one frame, since its frames err
+\varepsilon` are those that predict gaps best, twice as long as the one to fill, that are held out
+of what is visible (`held_out_stretches`). Each such gap counts as one frame, since its frames err
 together, and logarithms have normal priors with standard deviation 1. The scale is inferred from G
 gaps, so that predictions are Student's t with G degrees of freedom.
 """
@@ -26,9 +26,9 @@ from scipy.spatial.distance import cdist
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
 from mocapbench.baselines.kriging.conditioned import student_variance
-from mocapbench.baselines.kriging.left_out_gaps import (
+from mocapbench.baselines.kriging.held_out_stretches import (
     DescribedFrames,
-    LeftOutGaps,
+    HeldOutStretches,
     add_noise,
     learn_parameters,
     predict_frames,
@@ -117,7 +117,7 @@ def learn_marker_process(
     stretch = stretch_numbers(frames.times, frames.recording, seconds)
     n_gaps = int(stretch.max()) + 1
     found = learn_parameters(pairs, values, stretch, _TYPICAL, n_gaps / len(stretch))
-    scale = max(LeftOutGaps(add_noise(pairs, found), values, stretch).scale, _LEAST_SCALE)
+    scale = max(HeldOutStretches(add_noise(pairs, found), values, stretch).scale, _LEAST_SCALE)
     return found, scale * student_variance(n_gaps)
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mocapbench.baselines.gp.prior.kernels import Matern32
 from mocapbench.baselines.kriging.conditioned import ConditionedFrames
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.gaps import hidden_together, runs
+from mocapbench.basics.mask_runs import hidden_together, runs
 from mocapbench.datasets import FrameByChannel, Mask
 
 __all__ = ["courses_in_gaps", "own_course"]

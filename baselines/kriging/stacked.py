@@ -9,7 +9,7 @@ import numpy as np
 from sklearn.linear_model import Ridge
 
 from mocapbench.baselines.common.recordings import interpolate_channels, stack
-from mocapbench.baselines.kriging.left_out_gaps import DescribedFrames
+from mocapbench.baselines.kriging.held_out_stretches import DescribedFrames
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 

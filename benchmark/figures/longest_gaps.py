@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.basics.gaps import run_bounds
+from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.datasets import FrameByChannel, Mask, Recording

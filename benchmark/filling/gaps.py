@@ -13,7 +13,7 @@ from typing import Self
 
 import numpy as np
 
-from mocapbench.basics.gaps import run_bounds
+from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.datasets import Mask
 
 __all__ = ["Episode", "Gap", "count_entries", "find_gaps", "group_gaps", "mask_ends", "mask_gaps"]

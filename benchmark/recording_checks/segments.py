@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.gaps import run_bounds
+from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.recording_checks.findings_table import (
     MarkerPaths,
     measure_extent,

@@ -9,7 +9,7 @@ import pandas as pd
 
 from mocapbench.baselines.common.markers import markers_of
 from mocapbench.basics.arrays import Mask
-from mocapbench.basics.gaps import run_bounds
+from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
 from mocapbench.datasets import Recording
 

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from mocapbench.basics.gaps import run_bounds
+from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.datasets import Archive, FormatError, Recording, RecordingUnavailable

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.basics.gaps import free_starts
+from mocapbench.basics.mask_runs import free_starts
 from mocapbench.benchmark.task_files.selection import Span, matching_channels
 from mocapbench.datasets import Archive, Mask, Recording, frame_rate
 from mocapbench.datasets.formats.sets import same_rate

@@ -29,7 +29,7 @@ from mocapbench.baselines import (
     Prediction,
     channel_kriging,
 )
-from mocapbench.baselines.kriging import channel_process, left_out_gaps, stacked
+from mocapbench.baselines.kriging import channel_process, held_out_stretches, stacked
 from mocapbench.baselines.kriging.channel_process import TYPICAL
 from mocapbench.benchmark.tasks.marker_gaps import LIMBS
 from mocapbench.datasets import AcclaimFormat, Mask, Recording, joint_trajectories
@@ -77,7 +77,7 @@ def alike(values: Array, windows: Array, channels: Array, others: Array) -> Arra
     return np.ones(len(others))
 
 
-MODULES = (channel_process, left_out_gaps, stacked, channel_kriging)
+MODULES = (channel_process, held_out_stretches, stacked, channel_kriging)
 PROCESS, LEARNING, STACKED, MODEL = (m.__name__ for m in MODULES)
 CHANGES: Mapping[str, Change] = {
     "as it is": {},

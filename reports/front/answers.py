@@ -17,7 +17,12 @@ from mocapbench.reports.analysis.standings import (
     standings,
 )
 from mocapbench.reports.bundle.task_page import QUESTIONS
-from mocapbench.reports.front.board import board_cells, first_metric, is_generated, reference_of
+from mocapbench.reports.front.scoreboard import (
+    board_cells,
+    first_metric,
+    is_generated,
+    reference_of,
+)
 from mocapbench.reports.text import apart, number, slug
 
 __all__ = ["TESTED", "answers"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from mocapbench.basics.gaps import run_bounds
+from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.reports.bundle.pictures import Motions
 from mocapbench.reports.motions.encoding import encode, resolution
 from mocapbench.reports.text import slug

@@ -18,7 +18,7 @@ from mocapbench.reports.bundle.model_info import ModelInfo, in_families
 from mocapbench.reports.bundle.task_page import QUESTIONS
 from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.front.answers import answers
-from mocapbench.reports.front.board import SHADES, scoreboard
+from mocapbench.reports.front.scoreboard import SHADES, scoreboard
 from mocapbench.reports.front.trust import trust
 from mocapbench.reports.page.cell_dialog import cells_json
 from mocapbench.reports.page.facts import facts

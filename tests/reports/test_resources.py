@@ -29,7 +29,7 @@ def test_every_template_of_the_page_is_read_and_misses_nothing_silently():
 
 
 def test_other_packages_have_templates_of_their_own():
-    assert template("page.html.j2", "mocapbench.reports.slopes").name == "page.html.j2"
+    assert template("page.html.j2", "mocapbench.reports.run_comparison").name == "page.html.j2"
 
 
 def test_each_script_is_a_function_that_calls_itself():

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mocapbench.basics.arrays import Index
-from mocapbench.basics.gaps import MOST_HIDDEN, free_starts
+from mocapbench.basics.mask_runs import MOST_HIDDEN, free_starts
 from mocapbench.benchmark.filling.gaps import Episode, Gap
 from mocapbench.datasets import Mask
 

@@ -10,7 +10,7 @@ from mocapbench.benchmark.inspection.work import alike, typical
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.front.answers import TESTED
-from mocapbench.reports.front.board import (
+from mocapbench.reports.front.scoreboard import (
     SHADES,
     WORSE,
     BoardCell,

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.figures.scores.best import mean_values
-from mocapbench.reports.front.board import board_cells, first_metric
+from mocapbench.reports.front.scoreboard import board_cells, first_metric
 from mocapbench.reports.scores.table import describe_basis
 from mocapbench.reports.tables.base import ABSENT
 from mocapbench.reports.text import FEWEST_DECIMALS, number

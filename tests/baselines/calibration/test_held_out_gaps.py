@@ -12,7 +12,7 @@ from mocapbench.baselines.calibration.held_out_gaps import (
     long_copies,
     remoteness,
 )
-from mocapbench.basics.gaps import runs
+from mocapbench.basics.mask_runs import runs
 from mocapbench.datasets import Recording
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from mocapbench.baselines import BestOf, LinearImputer
 from mocapbench.baselines.choosing.parts import EVERYTHING, parts_of
-from mocapbench.basics.gaps import whole_gaps
+from mocapbench.basics.mask_runs import whole_gaps
 from mocapbench.datasets import Recording
 
 

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.baselines.common.recordings import interpolate_channels
-from mocapbench.basics.gaps import runs
+from mocapbench.basics.mask_runs import runs
 
 
 @given(frames=st.lists(st.booleans(), max_size=30))

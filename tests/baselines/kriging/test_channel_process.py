@@ -8,7 +8,7 @@ from mocapbench.baselines.kriging.channel_process import (
     predict_channels,
     prior_variances,
 )
-from mocapbench.baselines.kriging.left_out_gaps import DescribedFrames
+from mocapbench.baselines.kriging.held_out_stretches import DescribedFrames
 
 N_FRAMES, SPREAD = 90, np.ones(2)
 

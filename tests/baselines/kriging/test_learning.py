@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.kriging.channel_process import TYPICAL, ChannelPairs
-from mocapbench.baselines.kriging.left_out_gaps import (
+from mocapbench.baselines.kriging.held_out_stretches import (
     DescribedFrames,
-    LeftOutGaps,
+    HeldOutStretches,
     add_noise,
     choose_evenly,
     choose_from_both,
@@ -41,7 +41,7 @@ def test_frames_are_taken_of_the_recording_and_of_all_others():
 
 
 def test_nothing_beside_what_is_learnt_predicts_better():
-    """Of what priors and left-out gaps say together."""
+    """Of what priors and held-out gaps say together."""
     rng = np.random.default_rng(0)
     phase = np.cumsum(rng.uniform(0.0, 0.3, 90))
     description = np.column_stack([np.sin(phase), np.cos(phase)])
@@ -53,7 +53,7 @@ def test_nothing_beside_what_is_learnt_predicts_better():
     weight = (stretch.max() + 1) / 90
 
     def score(parameters):
-        left_out = LeftOutGaps(add_noise(pairs, parameters), values, stretch)
+        left_out = HeldOutStretches(add_noise(pairs, parameters), values, stretch)
         return weight * left_out.score + 0.5 * np.sum((parameters - TYPICAL) ** 2)
 
     found = learn_parameters(pairs, values, stretch, TYPICAL, weight)

@@ -143,7 +143,7 @@ FIT_PATH = [
     ("datasets.formats.angle_wrapping", "missing-frames", "pose-kriging"),
     ("baselines.common.ascent", "missing-frames", "lds"),
     ("baselines.common.cholesky", "toy-interpolation-1", "mohgp"),
-    ("basics.gaps", "missing-frames", "knn"),
+    ("basics.mask_runs", "missing-frames", "knn"),
     ("baselines.common.markers", "marker-gaps", "rigid-body"),
     ("baselines.common.rigid", "marker-gaps", "marker-kriging"),
     ("baselines.common.pose_units", "missing-frames", "pose-viterbi"),

@@ -11,7 +11,7 @@ from mocapbench.reports.analysis.estimates import FoldMean
 from mocapbench.reports.analysis.results import list_failures, task_results
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.front.board import board_cells
+from mocapbench.reports.front.scoreboard import board_cells
 
 values = st.lists(st.floats(-1e3, 1e3), min_size=2, max_size=12)
 

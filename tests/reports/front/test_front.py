@@ -10,7 +10,7 @@ from mocapbench.reports import render
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.front.answers import answers
-from mocapbench.reports.front.board import (
+from mocapbench.reports.front.scoreboard import (
     INCOMPLETE,
     SHADES,
     BoardCell,

@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.basics.gaps import free_starts
+from mocapbench.basics.mask_runs import free_starts
 
 
 @given(blocked=st.lists(st.booleans(), max_size=20), length=st.integers(1, 22))

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from markupsafe import Markup, escape
 
-from mocapbench.reports.slopes.values import ScoreChange
+from mocapbench.reports.run_comparison.values import ScoreChange
 from mocapbench.reports.text import MINUS, slug
 
 __all__ = ["slope_chart"]

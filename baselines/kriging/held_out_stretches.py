@@ -1,11 +1,11 @@
-r"""Processes over frames whose parameters predict best the gaps that are left out.
+r"""Processes over frames whose parameters best predict stretches that are held out.
 
 The likelihood of frames in a row says how well each is told from the one before, which is not what
 is wanted of a gap. Here every frame belongs to one of several stretches, and each stretch in turn
 is predicted from all the others.
 
 With the covariance K (n, n) of the frames, noise included, its inverse P, values Z (n, O) and
-:math:`A = P Z`, frames i of a stretch g that is left out have the errors
+:math:`A = P Z`, frames i of a stretch g that is held out have the errors
 :math:`r_g = P_{gg}^{-1} A_g` and the covariance :math:`P_{gg}^{-1}` (C. E. Rasmussen and C. K. I.
 Williams (2006), Gaussian Processes for Machine Learning, MIT Press, §5.4.2, with stretches in place
 of points). With its diagonal s and one unknown scale, which is
@@ -34,7 +34,7 @@ from mocapbench.basics.arrays import Array, Index
 
 __all__ = [
     "DescribedFrames",
-    "LeftOutGaps",
+    "HeldOutStretches",
     "Pairs",
     "add_noise",
     "choose_evenly",
@@ -49,8 +49,8 @@ _WIDTH = 4.0
 """Most deviations of a logarithm from its prior median."""
 _STEPS = 15
 """Of the search: more change predictions little."""
-_FEWEST_GAPS = 4
-"""Gaps that are left out are shorter than the one to fill where there would be fewer."""
+_FEWEST_STRETCHES = 4
+"""Stretches that are held out are shorter than the gap to fill where there would be fewer."""
 _JITTER = 1e-6
 _TINY = float(np.finfo(np.float64).tiny)
 
@@ -94,7 +94,7 @@ class Pairs(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class LeftOutGaps:
+class HeldOutStretches:
     """What a process makes of each stretch of frames, given all the others.
 
     Parameters
@@ -138,7 +138,7 @@ class LeftOutGaps:
 
     @property
     def score(self) -> float:
-        """The negative log-density of the frames left out, each by itself; the less, the better."""
+        """The negative log-density of held-out frames, each by itself; the less, the better."""
         n_frames, n_outputs = self.values.shape
         logarithms = n_frames * np.log(self.scale) + np.log(self.variances).sum()
         return float(0.5 * n_outputs * logarithms)
@@ -198,8 +198,8 @@ def learn_parameters(
 ) -> Array:
     r"""Return the parameters (P,) with which each stretch of frames is predicted best.
 
-    They have the least negative log-density of what is left out (`LeftOutGaps`) times the weight,
-    and of normal priors of logarithms, with standard deviation 1.
+    They have the least negative log-density of what is held out (`HeldOutStretches`) times the
+    weight, and of normal priors of logarithms, with standard deviation 1.
 
     Parameters
     ----------
@@ -216,12 +216,12 @@ def learn_parameters(
     """
 
     def objective(parameters: Array) -> tuple[float, Array]:
-        left_out = LeftOutGaps(add_noise(pairs, parameters), values, stretch)
+        held_out = HeldOutStretches(add_noise(pairs, parameters), values, stretch)
         # ⟨∂score / ∂K, ∂K⟩ of each parameter; K has ε² on its diagonal.
-        by = [np.vdot(left_out.sensitivity, each) for each in pairs.derivatives(parameters)]
-        by.append(2.0 * np.exp(2.0 * parameters[-1]) * np.trace(left_out.sensitivity))
+        by = [np.vdot(held_out.sensitivity, each) for each in pairs.derivatives(parameters)]
+        by.append(2.0 * np.exp(2.0 * parameters[-1]) * np.trace(held_out.sensitivity))
         deviations = parameters - typical
-        score = weight * left_out.score + 0.5 * float(deviations @ deviations)
+        score = weight * held_out.score + 0.5 * float(deviations @ deviations)
         return score, weight * np.array(by) + deviations
 
     found = minimize(
@@ -289,7 +289,7 @@ def stretch_numbers(
     first = np.array([times[recording == number].min() for number in numbers])
     since = times - first[each]
     total = sum(since[recording == number].max() for number in numbers)
-    number = since // max(min(duration, total / _FEWEST_GAPS), np.finfo(np.float64).tiny)
+    number = since // max(min(duration, total / _FEWEST_STRETCHES), np.finfo(np.float64).tiny)
     _, stretch = np.unique(np.column_stack([recording, number]), axis=0, return_inverse=True)
     return np.asarray(stretch.ravel())
 

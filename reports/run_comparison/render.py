@@ -8,8 +8,8 @@ from markupsafe import Markup
 
 from mocapbench.basics.words import format_count
 from mocapbench.reports.resources import styles, template
-from mocapbench.reports.slopes.chart import slope_chart
-from mocapbench.reports.slopes.values import ChangeVerdict, RunChanges, ScoreChange
+from mocapbench.reports.run_comparison.chart import slope_chart
+from mocapbench.reports.run_comparison.values import ChangeVerdict, RunChanges, ScoreChange
 from mocapbench.reports.text import MINUS
 
 __all__ = ["render_changes"]
@@ -18,7 +18,7 @@ __all__ = ["render_changes"]
 def render_changes(changes: RunChanges) -> str:
     """Return what changed between two runs as one self-contained HTML page."""
     slopes, identical = _slopes(changes)
-    return template("page.html.j2", "mocapbench.reports.slopes").render(
+    return template("page.html.j2", "mocapbench.reports.run_comparison").render(
         changes=changes,
         summary=_summary(changes),
         slopes=slopes,

@@ -6,14 +6,14 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
 from mocapbench.basics.words import format_count
-from mocapbench.benchmark.comparison.fact_changes import (
+from mocapbench.benchmark.comparison.folds import Pair, both_scored, records_by_address
+from mocapbench.benchmark.comparison.problems import differences, require_same_problems
+from mocapbench.benchmark.comparison.score_changes import score_changes
+from mocapbench.benchmark.comparison.setup_changes import (
     changed_parameters,
     changed_provenance,
     changed_recordings,
 )
-from mocapbench.benchmark.comparison.folds import Pair, both_scored, records_by_address
-from mocapbench.benchmark.comparison.problems import differences, require_same_problems
-from mocapbench.benchmark.comparison.score_changes import score_changes
 from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import TASKS

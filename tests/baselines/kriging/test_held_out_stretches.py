@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
+from mocapbench.baselines.kriging.held_out_stretches import HeldOutStretches
 
 seeds = st.integers(0, 2**16)
 STRETCH = np.array([0, 0, 0, 3, 3, 1, 1, 1, 1, 7])
@@ -19,28 +19,28 @@ def process(seed):
 @given(seed=seeds)
 def test_every_stretch_is_predicted_from_the_others(seed):
     covariance, values = process(seed)
-    left_out = LeftOutGaps(covariance, values, STRETCH)
+    held_out = HeldOutStretches(covariance, values, STRETCH)
     for number in np.unique(STRETCH):
         own = np.equal(STRETCH, number)
         others = ~own
         gain = covariance[np.ix_(own, others)] @ np.linalg.inv(covariance[np.ix_(others, others)])
         variance = np.diag(covariance[np.ix_(own, own)] - gain @ covariance[np.ix_(others, own)])
         errors = values[own] - gain @ values[others]
-        np.testing.assert_allclose(left_out.errors[own], errors, rtol=1e-6, atol=1e-8)
-        np.testing.assert_allclose(left_out.variances[own], variance, rtol=1e-6)
+        np.testing.assert_allclose(held_out.errors[own], errors, rtol=1e-6, atol=1e-8)
+        np.testing.assert_allclose(held_out.variances[own], variance, rtol=1e-6)
 
 
 def test_the_score_is_the_density_of_each_entry_with_the_best_scale():
     covariance, values = process(0)
-    left_out = LeftOutGaps(covariance, values, STRETCH)
-    squares = left_out.errors**2 / left_out.variances[:, None]
+    held_out = HeldOutStretches(covariance, values, STRETCH)
+    squares = held_out.errors**2 / held_out.variances[:, None]
 
     def without_constants(scale):
-        return 0.5 * (np.log(scale * left_out.variances[:, None]) + squares / scale - 1.0).sum()
+        return 0.5 * (np.log(scale * held_out.variances[:, None]) + squares / scale - 1.0).sum()
 
-    assert left_out.score == pytest.approx(without_constants(left_out.scale))
+    assert held_out.score == pytest.approx(without_constants(held_out.scale))
     for other in (0.9, 1.1):
-        assert without_constants(other * left_out.scale) > left_out.score
+        assert without_constants(other * held_out.scale) > held_out.score
 
 
 @given(seed=seeds)
@@ -50,17 +50,17 @@ def test_the_sensitivity_is_that_of_finite_differences(seed):
     direction, step = direction + direction.T, 1e-6
 
     def score(change):
-        return LeftOutGaps(covariance + change * direction, values, STRETCH).score
+        return HeldOutStretches(covariance + change * direction, values, STRETCH).score
 
     slope = (score(step) - score(-step)) / (2.0 * step)
-    sensitivity = LeftOutGaps(covariance, values, STRETCH).sensitivity
+    sensitivity = HeldOutStretches(covariance, values, STRETCH).sensitivity
     np.testing.assert_array_equal(sensitivity, sensitivity.T)
     assert np.vdot(sensitivity, direction) == pytest.approx(slope, rel=1e-3, abs=1e-3)
 
 
 def test_the_scale_of_the_covariance_does_not_matter():
     covariance, values = process(3)
-    one, other = (LeftOutGaps(s * covariance, values, STRETCH) for s in (1.0, 9.0))
+    one, other = (HeldOutStretches(s * covariance, values, STRETCH) for s in (1.0, 9.0))
     np.testing.assert_allclose(other.errors, one.errors)
     assert other.score == pytest.approx(one.score)
     assert other.scale == pytest.approx(one.scale / 9.0)
@@ -68,12 +68,12 @@ def test_the_scale_of_the_covariance_does_not_matter():
 
 def test_the_scale_is_the_mean_of_those_of_the_outputs():
     covariance, values = process(4)
-    left_out = LeftOutGaps(covariance, values, STRETCH)
-    each = [LeftOutGaps(covariance, values[:, [d]], STRETCH).scale for d in range(2)]
-    np.testing.assert_allclose(left_out.scales, each)
-    assert left_out.scale == pytest.approx(np.mean(each))
+    held_out = HeldOutStretches(covariance, values, STRETCH)
+    each = [HeldOutStretches(covariance, values[:, [d]], STRETCH).scale for d in range(2)]
+    np.testing.assert_allclose(held_out.scales, each)
+    assert held_out.scale == pytest.approx(np.mean(each))
 
 
 def test_a_covariance_that_is_none_is_refused():
     with pytest.raises(np.linalg.LinAlgError, match="positive definite"):
-        assert LeftOutGaps(-np.eye(10), process(0)[1], STRETCH).score
+        assert HeldOutStretches(-np.eye(10), process(0)[1], STRETCH).score

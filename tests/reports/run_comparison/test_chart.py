@@ -7,8 +7,8 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.reports.slopes.chart import BOTTOM, GAP, TOP, slope_chart
-from mocapbench.reports.slopes.values import ChangeVerdict, ScoreChange
+from mocapbench.reports.run_comparison.chart import BOTTOM, GAP, TOP, slope_chart
+from mocapbench.reports.run_comparison.values import ChangeVerdict, ScoreChange
 
 VALUES = st.floats(-1e3, 1e3).filter(lambda value: value == 0.0 or abs(value) > 1e-6)
 
