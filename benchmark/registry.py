@@ -11,10 +11,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from importlib.metadata import EntryPoint, entry_points
+from functools import cached_property
+from importlib.metadata import EntryPoint
 from typing import Any, Generic, TypeVar, cast
 
 from mocapbench.baselines import Model
+from mocapbench.benchmark.entry_points import find_entry_points
 from mocapbench.benchmark.errors import UnregisteredNameError, UsageError
 from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.tasks.base import Task
@@ -58,9 +60,10 @@ class Registry(Generic[T]):
         self.kind = kind
         self.group = group
         self._added: dict[str, T] = {}
-        self._points: dict[str, EntryPoint] = {
-            point.name: point for point in entry_points(group=group)
-        }
+
+    @cached_property
+    def _points(self) -> dict[str, EntryPoint]:
+        return find_entry_points(self.group)
 
     def names(self) -> tuple[str, ...]:
         """Return every registered name, sorted: the order of registration means nothing."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
-from importlib.metadata import entry_points, version
+from importlib.metadata import version
 
+from mocapbench.benchmark.entry_points import find_entry_points
 from mocapbench.benchmark.registry import REGISTRIES
 from mocapbench.benchmark.runs.source_code.folders import folders_digest
 
@@ -22,8 +23,8 @@ def installation() -> Mapping[str, str]:
 
     The digest tells apart two checkouts of one version.
     """
-    points = (point for registry in REGISTRIES for point in entry_points(group=registry.group))
-    packages = {point.dist.name for point in points if point.dist}
+    groups = (find_entry_points(registry.group) for registry in REGISTRIES)
+    packages = {point.dist.name for points in groups for point in points.values() if point.dist}
     versions = {name: version(name) for name in sorted({*_LIBRARIES, *packages})}
     return {**versions, _SOURCE: folders_digest(_PARTS, "*.py")[:12]}
 
