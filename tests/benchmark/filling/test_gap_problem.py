@@ -1,9 +1,16 @@
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
-from mocapbench.benchmark.filling.gap_problem import GapProblem, cut_windows
+from mocapbench.benchmark.filling.gap_problem import (
+    GapProblem,
+    cut_blank_ends,
+    cut_windows,
+    drop_unseen,
+    select_channels,
+)
 from mocapbench.datasets import Recording
 
 N_FRAMES = 300
@@ -25,15 +32,19 @@ def problem(starts, length, n_train=0):
 STARTS = st.lists(st.integers(0, N_FRAMES - 20), min_size=1, max_size=6)
 
 
-@given(STARTS, st.integers(1, 15), st.integers(40, 200), st.integers(0, 2))
+@given(STARTS, st.integers(1, 15), st.integers(40, 3 * N_FRAMES), st.integers(0, 2))
+@example([100], 10, 800, 2)  # half of it has room for more frames than there are to fill
 def test_every_wanted_entry_is_wanted_in_one_window(starts, length, limit, n_train):
     asked = problem(starts, length, n_train)
     wanted = np.zeros(asked.target.shape, dtype=int)
     try:
         windows = cut_windows(asked, limit)
-    except ValueError:  # gaps side by side, longer than any window
+    except ValueError as error:  # gaps side by side, longer than any window
+        assert "expected gaps of at most" in str(error)
         return
     for window, part in windows:
+        assert 0 <= window.start < window.stop <= N_FRAMES
+        assert len(part.given.times) == window.stop - window.start
         wanted[window] += part.target
         assert part.n_frames <= limit
         assert not part.given.visible[part.target].any()
@@ -43,8 +54,9 @@ def test_every_wanted_entry_is_wanted_in_one_window(starts, length, limit, n_tra
 def test_what_fits_is_not_cut():
     asked = problem([100], 10)
     for limit in (None, N_FRAMES):
-        ((_, part),) = cut_windows(asked, limit)
+        ((window, part),) = cut_windows(asked, limit)
         assert part is asked
+        assert window == slice(0, N_FRAMES)
 
 
 def test_a_window_has_as_much_on_both_sides_of_a_gap():
@@ -57,6 +69,64 @@ def test_a_gap_longer_than_a_window_is_refused():
         cut_windows(problem([100], 30), 40)
 
 
+def test_the_longest_gap_that_the_refusal_allows_is_taken():
+    ((_, part),) = cut_windows(problem([100], 20), 40)
+    assert part.target.sum() == 20
+
+
+def test_a_window_at_an_end_has_as_many_frames_as_any():
+    for start in (0, 2, 288, 290):
+        ((window, _),) = cut_windows(problem([start], 10), 50)
+        assert window in (slice(0, 50), slice(250, 300))
+
+
+def test_gaps_share_a_window_with_the_gap_before_whatever_came_earlier():
+    assert len(cut_windows(problem([20, 130, 160], 10), 60)) == 2
+
+
 @pytest.mark.parametrize(("limit", "n_windows"), [(60, 1), (59, 2)])
 def test_gaps_share_a_window_that_holds_both_and_ten_frames_on_each_side(limit, n_windows):
     assert len(cut_windows(problem([100, 130], 10), limit)) == n_windows
+
+
+MASKS = arrays(bool, (7, 3))
+
+
+def masked(visible, target, train=()):
+    """Return the problem of filling what is wanted of what is not visible; train likewise."""
+    names, times = ("a", "b", "c"), np.arange(7) / 10
+    given, *others = (
+        Recording("r", times, np.where(mask, 1.0, np.nan), names, ("",) * 3)
+        for mask in (visible, *train)
+    )
+    return GapProblem(given, target & ~visible, tuple(others))
+
+
+@given(MASKS, MASKS, st.lists(MASKS, max_size=2))
+def test_channels_stay_that_are_seen_somewhere_or_wanted(visible, target, train):
+    asked = masked(visible, target, train)
+    seen = np.any([mask.any(axis=0) for mask in (visible, *train)], axis=0)
+    kept = seen | asked.target.any(axis=0)
+    assume(kept.any())
+    left = drop_unseen(asked)
+    assert left.given.channels == tuple(np.array(["a", "b", "c"])[kept])
+    assert {recording.channels for recording in left.train} <= {left.given.channels}
+    np.testing.assert_array_equal(left.target, asked.target[:, kept])
+    np.testing.assert_array_equal(left.given.visible, visible[:, kept])
+
+
+@given(MASKS, MASKS)
+def test_frames_at_the_ends_go_where_nothing_is_visible_or_wanted(visible, target):
+    asked = masked(visible, target)
+    (needed,) = np.nonzero((visible | asked.target).any(axis=1))
+    assume(len(needed))
+    left, frames = cut_blank_ends(asked), slice(needed[0], needed[-1] + 1)
+    np.testing.assert_array_equal(left.given.times, asked.given.times[frames])
+    np.testing.assert_array_equal(left.target, asked.target[frames])
+
+
+def test_recordings_of_which_all_channels_stay_are_not_copied():
+    asked = masked(*np.ones((2, 7, 3), dtype=bool), train=np.ones((1, 7, 3), dtype=bool))
+    left = select_channels(asked, np.ones(3, dtype=bool))
+    assert left.given is asked.given
+    assert left.train[0] is asked.train[0]

@@ -6,6 +6,7 @@ from hypothesis.extra.numpy import arrays
 from mocapbench.benchmark.filling.gaps import (
     Episode,
     Gap,
+    count_entries,
     find_gaps,
     group_gaps,
     mask_ends,
@@ -18,6 +19,20 @@ MASKS = arrays(bool, st.tuples(st.integers(1, 12), st.integers(1, 5)))
 @given(MASKS)
 def test_the_gaps_are_the_mask(mask):
     np.testing.assert_array_equal(mask_gaps(find_gaps(mask), mask.shape), mask)
+
+
+@given(MASKS)
+def test_the_entries_of_gaps_are_those_of_the_mask(mask):
+    gaps = find_gaps(mask)
+    assert count_entries(gaps) == mask.sum()
+    assert sum(episode.n_entries for episode in group_gaps(gaps)) == mask.sum()
+
+
+@given(MASKS, st.integers(0, 5))
+def test_episodes_that_move_take_their_entries_along(mask, frames):
+    moved = [gap for e in group_gaps(find_gaps(mask)) for gap in e.move(frames).gaps]
+    later = np.pad(mask, ((frames, 0), (0, 0)))
+    np.testing.assert_array_equal(mask_gaps(moved, later.shape), later)
 
 
 @given(MASKS)
