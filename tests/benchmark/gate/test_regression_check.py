@@ -293,6 +293,26 @@ def test_markdown_shows_names_as_they_are(check, tmp_path):
     assert page.count("<tr>") == 3
 
 
+@pytest.mark.parametrize("after", [_mse(1.0), _mse(1.1), [Status.FAILED], [Status.DATA_MISSING]])
+def test_a_check_has_passed_if_its_exit_code_is_0(check, tmp_path, after):
+    code = check({"knn": _mse(1.0)}, {"knn": after})
+    found = json.loads((tmp_path / "after" / "check.json").read_text())
+    assert found["passed"] is (code == 0)
+
+
+def test_metrics_share_a_row_only_where_they_have_no_number(check, tmp_path):
+    before = {name: [{"mse": 1.0, "rms_per_frame": 1.0}] for name in ("knn", "nn")}
+    after = {"knn": [{"mse": 2.0, "rms_per_frame": 3.0}], "nn": [Status.FAILED]}
+    assert check(before, after, "--markdown", tmp_path / "m.md") == 1
+    rows = [line.split(" | ") for line in (tmp_path / "m.md").read_text().splitlines()]
+    metrics = [(row[1].split(", ")[-1], row[2]) for row in rows if row[0].startswith("| ")]
+    assert metrics[2:] == [
+        ("knn", "mse"),
+        ("knn", "rms\\_per\\_frame"),
+        ("nn", "mse, rms\\_per\\_frame"),
+    ]
+
+
 def test_the_report_tells_the_check_of_the_last_run_only(check, cli, tmp_path):
     assert check({"knn": _mse(1.0)}, {"knn": _mse(1.1)}) == 1
     found = json.loads((tmp_path / "after" / "check.json").read_text())

@@ -196,6 +196,16 @@ def test_too_few_folds_are_undecided_and_not_failed(cli, scored, changed, code):
     assert "replay fails" not in cli.printed
 
 
+def test_every_row_of_the_table_fills_every_column_and_ends_with_a_verdict(cli, scored):
+    """The control has one number where entrants have three."""
+    cli("check", "--controls", scored({**SCORES, "worse": _resembling(-0.8, -0.7, -0.9)}))
+    body = cli.printed.partition("┩")[2].partition("└")[0]
+    rows = [[cell.strip() for cell in row.strip(" │").split("│")] for row in body.split("│ │")]
+    assert [row[0] for row in rows] == ["replay", "worse", "control"]
+    assert [row[-1] for row in rows] == ["passed", "failed", "passed"]
+    assert {len(row) for row in rows} == {cli.printed.count("╇") + 1}
+
+
 def test_the_check_needs_something_to_check_against(cli, tmp_path):
     assert cli("check", tmp_path) == 2
     assert "choose --reference or --controls" in cli.printed
