@@ -32,3 +32,19 @@ def test_it_learns_from_gaps_twice_as_long_as_the_time_between_the_frames_beside
     )
     gap.fill()
     assert learnt == [pytest.approx(seconds)]
+
+
+@pytest.mark.parametrize(("n_others", "n_seen"), [(2, 9), (3, 0), (3, 1), (3, 2), (4, 2)])
+def test_three_others_and_two_frames_that_show_the_marker_beside_them_fill_a_gap(n_others, n_seen):
+    places = np.random.default_rng(0).normal(size=(10, 1 + n_others, 3))
+    places[n_seen:, 0] = np.nan
+    gap = MarkerGap(
+        [np.arange(10) / 10.0],
+        [places],
+        marker=0,
+        frames=np.arange(n_seen, 10),
+        others=np.arange(1, 1 + n_others),
+        steady=np.ones(n_others),
+        power=1.0,
+    )
+    assert gap.can_be_filled is (n_others >= 3 and n_seen >= 2)

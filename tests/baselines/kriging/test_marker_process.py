@@ -72,3 +72,14 @@ def test_what_is_learnt_says_how_far_it_errs(noise):
         mean, variance = predict_marker(given.at(known), where[known], given.at(gap), *process)
         ratios.append(np.mean((mean - where[gap]) ** 2 / variance[:, None]))
     assert 0.3 < np.mean(ratios) < 2.0
+
+
+def test_a_marker_that_is_moves_a_hundredth_as_far_is_a_hundred_times_as_sure():
+    """Parameters are those of ratios; variances have the unit of values, squared."""
+    given = frames()
+    where, known = values(given, 0.1), np.r_[:20, 35:N_FRAMES]
+    far, near = (
+        learn_marker_process(given.at(known), scale * where[known], 0.5) for scale in (1.0, 1e-2)
+    )
+    np.testing.assert_allclose(near[0], far[0], rtol=1e-6)
+    assert near[1] == pytest.approx(1e-4 * far[1])

@@ -162,13 +162,22 @@ SCORES = {
     [
         ({}, 0),
         ({"replay": [*SCORES["replay"], Status.FAILED]}, 3),
+        ({"replay": [*SCORES["replay"], Status.FAILED, Status.FAILED]}, 3),
         ({"control": [Status.FAILED]}, 3),
         ({"replay": [*SCORES["control"], Status.FAILED]}, 1),
     ],
 )
 def test_a_failed_job_is_never_a_passed_control_check(cli, scored, changed, code):
     assert cli("check", "--controls", scored({**SCORES, **changed})) == code
-    assert ("failed, and nothing without a score was checked" in cli.printed) == bool(changed)
+    assert cli.printed.count("failed, and nothing without a score was checked") == bool(changed)
+
+
+def test_of_the_exempt_it_is_said_why_and_of_no_other(cli, scored):
+    """Who would have to pass, and does, needs no excuse."""
+    (exempt, reason), *_ = TASK.page.exempt.items()
+    assert cli("check", "--controls", scored({**SCORES, exempt: SCORES["control"]})) == 0
+    assert f"{exempt} need not pass: it {reason}" in cli.printed
+    assert cli.printed.count("need not pass:") == 1
 
 
 def _resembling(*advantages):
