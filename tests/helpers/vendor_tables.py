@@ -77,10 +77,11 @@ def motive_bodies():
     rng = np.random.default_rng(0)
     values = np.round(rng.normal(size=(N, 7 + 3 + 3 + 3)).cumsum(axis=0), 6)
     values[GAP] = np.nan
-    types = ["Rigid Body"] * 8 + ["Rigid Body Marker"] * 3 + ["Marker"] * 6
-    names = ["Box"] * 8 + ["Box:Marker1"] * 3 + ["Box:Marker1"] * 3 + ["Unlabeled 1200"] * 3
+    types = ["Rigid Body"] * 8 + ["Rigid Body Marker"] * 3 + ["Marker"] * 7
+    names = ["Box"] * 8 + ["Box:Marker1"] * 3 + ["Box:Marker1"] * 3 + ["Unlabeled 1200"] * 4
     kinds = ["Rotation"] * 4 + ["Position"] * 3 + ["Error Per Marker"] + ["Position"] * 9
-    axes = ["X", "Y", "Z", "W", "X", "Y", "Z", "", *"XYZ" * 3]
+    kinds += ["Marker Quality"]
+    axes = ["X", "Y", "Z", "W", "X", "Y", "Z", "", *"XYZ" * 3, ""]
     rows = [
         [
             "Format Version",
@@ -91,12 +92,12 @@ def motive_bodies():
             "Millimeters",
         ],
         [],
-        *([["", "", *row] for row in (types, names, ["7"] * 17, kinds)]),
+        *([["", "", *row] for row in (types, names, ["7"] * 18, kinds)]),
         ["Frame", "Time (Seconds)", *axes],
     ]
     for k in range(N):
         row = cells(values[k], digits=6)
-        rows.append([k, f"{TIMES[k]:.6f}", *row[:7], "0.001", *row[7:]])
+        rows.append([k, f"{TIMES[k]:.6f}", *row[:7], "0.001", *row[7:], "0.9"])
     channels = [f"Box.{axis}" for axis in ("qx", "qy", "qz", "qw", "x", "y", "z")]
     for name in ("Box:Marker1", "Box:Marker1-2", "Unlabeled 1200"):
         channels += [f"{name}.{axis}" for axis in "xyz"]
@@ -190,6 +191,20 @@ def qualisys_bodies():
     ]
     units = (("mm",) * 3 + ("deg",) * 3) * 2
     return Table("bodies.tsv", join(rows, "\t"), tuple(channels), units, values)
+
+
+def qualisys_skeleton():
+    """A skeleton of Qualisys: a column with nothing but the name of each segment."""
+    values = np.round(np.random.default_rng(6).normal(size=(N, 14)).cumsum(axis=0), 5)
+    values[GAP, 7:] = np.nan
+    head = [["NO_OF_FRAMES", N], ["NO_OF_CAMERAS", 12], ["FREQUENCY", 100], ["REFERENCE", "GLOBAL"]]
+    axes = ["X", "Y", "Z", "QX", "QY", "QZ", "QW"]
+    head += [["SOLVER", "Full Body"], ["Frame", "Time", "Hips", *axes, "Spine", *axes]]
+    rows = [cells(values[k], digits=5) for k in range(N)]
+    rows = [[k + 1, f"{TIMES[k]:.5f}", "", *row[:7], "", *row[7:]] for k, row in enumerate(rows)]
+    names = [f"{name}.{axis.lower()}" for name in ("Hips", "Spine") for axis in axes]
+    units = ((*("mm",) * 3, *("",) * 4)) * 2
+    return Table("walk_s.tsv", join([*head, *rows], "\t"), tuple(names), units, values)
 
 
 def deeplabcut(individuals=False):
@@ -318,6 +333,7 @@ TABLES = {
     "qualisys, empty cells": qualisys(missing=""),
     "qualisys, columns named": qualisys(columns=True, missing="NaN"),
     "qualisys 6D": qualisys_bodies(),
+    "qualisys skeleton": qualisys_skeleton(),
     "deeplabcut": deeplabcut(),
     "deeplabcut, animals": deeplabcut(individuals=True),
     "opensim, tabs": opensim(),

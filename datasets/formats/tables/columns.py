@@ -26,10 +26,15 @@ _TIME = re.compile(
     nanoseconds?)\s*[\])]?)?""",
     re.VERBOSE,
 )
-_FRAME = re.compile(r"(?:frame|field)s?(?:[ _]?(?:#|idx|index|id|no\.?|nr\.?|num|number))?|coords")
+_FRAME = re.compile(
+    r"(?:frame|field)s?(?:[ _]?(?:#|idx|index|id|no\.?|nr\.?|num|number))?|coords|fnum"
+)
 _COUNT = frozenset({"", "__index_level_0__", "sub frame", "subframe", "sub_frame", "unnamed: 0"})
 """Counts of pandas, and of samples within a frame."""
-_OF_INSTANCE = frozenset({"instance.score"})
+_QUALITY = re.compile(
+    r"instance\.score|(?:.*[._: -])?(?:(?:reprojection[_ ]?)?error|ncams)", re.IGNORECASE
+)
+"""How well something was found, of SLEAP, freemocap and Anipose."""
 _SURE = r"likelihood|visibility|presence|confidence|conf|score|prob(?:ability)?"
 _LIKELIHOOD = re.compile(rf"(?:(.*?)[._: -])?(?:{_SURE})(_?\d+)?|v(_?\d+)", re.IGNORECASE)
 _COORDINATE = re.compile(r"(?:(.*?)[._: -])?[xyz](_?\d+)?", re.IGNORECASE)
@@ -93,9 +98,9 @@ def sort_columns(
     numbers = [k for k in range(len(names)) if is_number[k]]
     times = [k for k in numbers if _TIME.fullmatch(plain[k])]
     frames = [k for k in numbers if _FRAME.fullmatch(plain[k])]
-    others = [k for k, name in enumerate(plain) if name in _COUNT or name in _OF_INSTANCE]
-    likelihoods = _match_likelihoods({k: names[k] for k in numbers})
-    apart = {*times, *frames, *others, *left_alone, *likelihoods.values()}
+    others = [k for k, name in enumerate(plain) if name in _COUNT or _QUALITY.fullmatch(name)]
+    likelihoods, repeated = _match_likelihoods({k: names[k] for k in numbers})
+    apart = {*times, *frames, *others, *left_alone, *likelihoods.values(), *repeated}
     channels = tuple(k for k in numbers if k not in apart)
     left_out = tuple(k for k in range(len(names)) if not is_number[k] and k not in apart)
     return TableColumns(_first(times), _first(frames), channels, left_out, likelihoods)
@@ -105,16 +110,21 @@ def _first(columns: Sequence[int]) -> int | None:
     return columns[0] if columns else None
 
 
-def _match_likelihoods(names: Mapping[int, str]) -> dict[int, int]:
-    """Return the column of likelihoods for each coordinate of the same marker that has one."""
-    sure = {}
+def _match_likelihoods(names: Mapping[int, str]) -> tuple[dict[int, int], set[int]]:
+    """Return the column of likelihoods for each coordinate of the same marker that has one.
+
+    Where a marker has several, such as visibility and presence, the first counts; the others are
+    returned, too.
+    """
+    sure: dict[str, list[int]] = {}
     for column, name in names.items():
         found = _LIKELIHOOD.fullmatch(name.strip())
         if found:
-            sure[(found[1] or "") + (found[2] or found[3] or "")] = column
+            sure.setdefault((found[1] or "") + (found[2] or found[3] or ""), []).append(column)
     coordinates = {k: _COORDINATE.fullmatch(name.strip()) for k, name in names.items()}
     stems = {k: (one[1] or "") + (one[2] or "") for k, one in coordinates.items() if one}
-    return {column: sure[stem] for column, stem in stems.items() if stem in sure}
+    matched = {column: sure[stem][0] for column, stem in stems.items() if stem in sure}
+    return matched, {k for stem in {*stems.values()} for k in sure.get(stem, ())[1:]}
 
 
 def split_unit(name: str) -> tuple[str, str]:

@@ -1,7 +1,8 @@
 r"""How programs write tables: one description each, which `heads` goes by.
 
-Patterns are regular expressions. They are matched at the beginning of a line, but for those that
-state one fact, which are sought anywhere in the head.
+Patterns are regular expressions. They are matched at the beginning of a line, of which quotes and
+blanks around the cells are left out, but for those that state one fact, which are sought anywhere
+in the head.
 
 A head is made of lines, of which one names the columns. Where that line has only axes, the names of
 markers or bodies stand in another one. Rows of numbers follow the head. For instance Vicon Nexus::
@@ -25,8 +26,9 @@ Place = tuple[str, int]
 
 _NONE = r"(?!)()"
 """What no line matches."""
-_S = r"\"?[,;\t]"
+_S = r"[,;\t]"
 """What separates cells; a table is still known after a spreadsheet saved it with other ones."""
+_DECIMAL = r"(\d+(?:[.,]\d+)?)"
 
 
 @dataclass(frozen=True)
@@ -69,13 +71,15 @@ class Dialect:
         Whether a marker or body at exactly 0, 0, 0 is one that is missing.
     suffixes : tuple of str
         Of files that no other program writes.
+    no_motion : str
+        What such a table has if it has no motion, and what to export in its place.
     """
 
     program: str
     sign: str
-    ends: str
-    ends_with: str
-    columns: str
+    ends: str = _NONE
+    ends_with: str = ""
+    columns: str = _NONE
     further: str = _NONE
     names: Place = (_NONE, 0)
     kinds: Place = (_NONE, 0)
@@ -93,49 +97,60 @@ class Dialect:
     blocks: tuple[str, ...] = ()
     zeros: bool = False
     suffixes: tuple[str, ...] = ()
+    no_motion: str = ""
 
 
-_MOTIVE_TYPES = "Rigid Body|Marker|Bone|Skeleton|Markerset|Trained Markerset|Device|Camera"
 _MOTIVE = Dialect(
     program="OptiTrack Motive",
-    sign=rf'"?Format Version{_S}',
-    ends=rf'"?Frame{_S}',
+    sign=rf"Format Version{_S}",
+    ends=rf"Frame{_S}",
     ends_with="Frame,Time (Seconds),X,Y,Z",
-    columns=rf'"?Frame{_S}',
+    columns=rf"Frame{_S}",
     # Types stand alone, or behind the word: ",,Marker" up to version 1.23, ",Type,Marker" later.
-    names=(rf'(Type)?{_S}"?(Type)?({_S})+"?({_MOTIVE_TYPES})', 1),
-    kinds=(rf'"?Frame{_S}', -1),
-    rate=rf'(?:Export Frame Rate|Capture Frame Rate(?!.*Export Frame Rate)){_S}"?([\d.]+)',
-    rows=rf'Total Exported Frames{_S}"?(\d+)',
-    length_by=rf'Length Units{_S}"?(\w+)',
+    # They are words such as Rigid Body, Bone Marker, Trained Markerset.
+    names=(rf"(Type)?{_S}(Type)?{_S}+[A-Z]", 1),
+    kinds=(rf"Frame{_S}", -1),
+    rate=rf"(?:Export Frame Rate|Capture Frame Rate(?!.*Export Frame Rate)){_S}{_DECIMAL}",
+    rows=rf"Total Exported Frames{_S}(\d+)",
+    length_by=rf"Length Units{_S}(\w+)",
 )
 
-_AXES_OF_NEXUS = rf'"?(?:Frame|Field #?){_S}'
+_AXES_OF_NEXUS = rf"(?:Frame|Field #?){_S}"
 _NEXUS = Dialect(
     program="Vicon Nexus",
-    sign=r'"?(?i:Trajectories|Model Outputs|Joints|Segments|Devices|Events)"?[,;\t ]*\n',
+    sign=r"(?i:Trajectories|Model Outputs|Joints|Segments|Devices|Events)[,;\t]*\n",
     ends=_AXES_OF_NEXUS,
     ends_with="Frame,Sub Frame,X,Y,Z",
-    further=r'[,;\t "]*[A-Za-zµ°%]',
+    further=r"[,;\t]*[A-Za-zµ°%]",
     columns=_AXES_OF_NEXUS,
     names=(_AXES_OF_NEXUS, -1),
     units=(_AXES_OF_NEXUS, 1),
-    rate=r'\A[^\n]*\n"?([\d.]+)',
+    rate=rf"\A[^\n]*\n{_DECIMAL}",
     length="mm",
     blocks=("Trajectories", "Joints", "Model Outputs", "Segments"),
     zeros=True,
 )
 
-_AXES_OF_QTM = rf"Frame{_S}|Time{_S}|[^,;\t]*[^,;\t\s] X{_S}"
+_QTM_PROGRAM = "Qualisys Track Manager"
+_OTHERS_OF_QTM = Dialect(
+    program=_QTM_PROGRAM,
+    sign=rf"(?:[A-Z_]+{_S}[^\n]*\n){{0,9}}?"
+    rf"(?:NO_OF_SAMPLES{_S}|TOT_NO_OF_CHAN{_S}|FORCE_PLATE_|DATA_INCLUDED{_S}2D)",
+    no_motion="analogue samples, forces or 2D data: export 3D or 6D data as TSV, or C3D",
+)
+_AXES_OF_QTM = (
+    rf"Frame{_S}|Time{_S}|[^,;\t]*[^,;\t\s] X{_S}"  # the name before the first axis
+    rf"|[^,;\t]+{_S}X{_S}Y{_S}"  # or in a column of its own
+)
 _QTM = Dialect(
-    program="Qualisys Track Manager",
-    sign=rf"NO_OF_\w+{_S}",
+    program=_QTM_PROGRAM,
+    sign=rf"(?:FILE_VERSION{_S}[^\n]*\n)?NO_OF_\w+{_S}",
     ends=rf"(?:MARKER|BODY|SEGMENT)_NAMES{_S}|{_AXES_OF_QTM}",
     ends_with="MARKER_NAMES or BODY_NAMES",
     further=rf"[A-Z][A-Z_]{{3,}}(?:{_S}|\s*$)|{_AXES_OF_QTM}",
     columns=_AXES_OF_QTM,
     listed=rf"(?:MARKER|BODY|SEGMENT)_NAMES{_S}",
-    rate=rf"(?m)^FREQUENCY{_S}([\d.]+)",
+    rate=rf"(?m)^FREQUENCY{_S}{_DECIMAL}",
     rows=rf"(?m)^NO_OF_FRAMES{_S}(\d+)",
     length="mm",
     zeros=True,
@@ -143,12 +158,12 @@ _QTM = Dialect(
 
 _DEEPLABCUT = Dialect(
     program="DeepLabCut",
-    sign=rf'"?scorer{_S}',
-    ends=rf'"?coords{_S}',
+    sign=rf"scorer{_S}",
+    ends=rf"coords{_S}",
     ends_with="coords,x,y,likelihood",
-    columns=rf'"?coords{_S}',
-    names=(rf'"?bodyparts{_S}', 0),
-    groups=(rf'"?individuals{_S}', 0),
+    columns=rf"coords{_S}",
+    names=(rf"bodyparts{_S}", 0),
+    groups=(rf"individuals{_S}", 0),
     length="px",
 )
 
@@ -163,7 +178,7 @@ _COORDINATES = Dialect(
     further=_OF_OPENSIM,
     columns=r"\s*(?i:time)\b",
     sorts=(_TRANSLATION, (r".*/(?:speed|acceleration|activation)", ""), (r".+", "angle")),
-    rate=r"DataRate\s*=\s*([\d.]+)",
+    rate=rf"DataRate\s*=\s*{_DECIMAL}",
     rows=r"n[Rr]ows\s*=\s*(\d+)",
     parts=r"DataType\s*=\s*(\w+)",
     length="m",
@@ -179,7 +194,7 @@ _STORAGE = Dialect(
     columns=r"\s*(?i:time)\b",
     # What else such files have, forces and speeds for instance, they do not say.
     sorts=(_TRANSLATION, (r".*/value", "angle")),
-    rate=r"DataRate\s*=\s*([\d.]+)",
+    rate=rf"DataRate\s*=\s*{_DECIMAL}",
     rows=r"(?:n[Rr]ows\s*=|datarows)\s*(\d+)",
     parts=r"DataType\s*=\s*(\w+)",
     length="m",
@@ -188,7 +203,7 @@ _STORAGE = Dialect(
     suffixes=(".mot", ".sto"),
 )
 
-_AXES_BELOW = rf'(?:[^\n,;\t]*{_S}){{1,3}}"?[Xx]{_S}"?[Yy]\b'
+_AXES_BELOW = rf"(?:[^\n,;\t]*{_S}){{1,3}}[Xx]{_S}[Yy]\b"
 _TWO_LINES = Dialect(
     program="names above axes",
     sign=rf"[^\n]*\n{_AXES_BELOW}",
@@ -208,5 +223,14 @@ PLAIN = Dialect(
 )
 """Any other table: the first line names the columns."""
 
-DIALECTS = (_MOTIVE, _NEXUS, _QTM, _DEEPLABCUT, _COORDINATES, _STORAGE, _TWO_LINES)
+DIALECTS = (
+    _MOTIVE,
+    _NEXUS,
+    _OTHERS_OF_QTM,
+    _QTM,
+    _DEEPLABCUT,
+    _COORDINATES,
+    _STORAGE,
+    _TWO_LINES,
+)
 """By their signs, of which the first that fits counts."""

@@ -34,34 +34,44 @@ def check_lines(file: str, lines: Sequence[str]) -> None:
         raise FormatError(file, expected, got, "save it with other line ends", line=1)
 
 
-def column_names(file: str, lines: Sequence[str], cells: CellSplitter) -> list[str]:
+def column_names(file: str, lines: Sequence[str], top: int, cells: CellSplitter) -> list[str]:
     """Return the names of the columns, which are in the first line.
+
+    Parameters
+    ----------
+    file : str
+    lines : sequence of str
+    top : int
+        Index of the first line.
+    cells : CellSplitter
 
     Raises
     ------
     FormatError
         If that line has something else, or the one below has more cells than there are names.
     """
-    names = [name.strip() for name in cells.split(lines[0])]
-    below = cells.split(lines[1]) if len(lines) > 1 else []
-    advice = _advise_on_first_line(lines, names, below)
+    names = [name.strip() for name in cells.split(lines[top])]
+    below = cells.split(lines[top + 1]) if len(lines) > top + 1 else []
+    advice = _advise_on_first_line(lines, top, names, below)
     if advice:
-        raise FormatError(file, _EXPECTED, _quote_line(lines[0]), advice, line=1)
+        raise FormatError(file, _EXPECTED, _quote_line(lines[top]), advice, top + 1)
     if cells.separator == "," and len(names) < len(below) and all(map(looks_numeric, below)):
         advice = (
             "if commas are decimal marks here, put semicolons between columns, else name every "
             "column in the first line"
         )
         got = f"{len(below)} between commas"
-        raise FormatError(file, f"{len(names)} cells", got, advice, line=2)
-    return names
+        raise FormatError(file, f"{len(names)} cells", got, advice, top + 2)
+    return [names[0].lstrip("# "), *names[1:]]  # numpy.savetxt writes names as a comment
 
 
-def _advise_on_first_line(lines: Sequence[str], names: Sequence[str], below: Sequence[str]) -> str:
+def _advise_on_first_line(
+    lines: Sequence[str], top: int, names: Sequence[str], below: Sequence[str]
+) -> str:
     """Return what to do about a first line that does not name the columns, or nothing."""
-    if _stands_above(names, below):
+    if names[0].startswith("#") and not _are_above(names, below):
         return "remove what stands above the names of the columns"
-    lower = _find_names(lines, len(names))
+    lower = _find_names(lines, top, len(names))
     if lower is not None:
         return (
             f"line {lower + 1} seems to name the columns, below a head of a program that is not "
@@ -72,19 +82,18 @@ def _advise_on_first_line(lines: Sequence[str], names: Sequence[str], below: Seq
     return ""
 
 
-def _stands_above(names: Sequence[str], below: Sequence[str]) -> bool:
-    """Return whether the first line is a comment, or tells Excel what separates columns."""
-    other = len(names) != len(below) or not any(map(looks_numeric, below))
-    return names[0].lower().startswith("sep=") or (names[0].startswith("#") and other)
+def _are_above(names: Sequence[str], below: Sequence[str]) -> bool:
+    """Return whether a line has a name for each cell of the one below, which has numbers."""
+    return len(names) == len(below) and any(map(looks_numeric, below))
 
 
-def _find_names(lines: Sequence[str], width: int) -> int | None:
+def _find_names(lines: Sequence[str], top: int, width: int) -> int | None:
     """Return the first line that seems to name the columns, if it is not the first of all.
 
     It has another number of cells than the first line of all, none of them a number, and a line of
     as many cells below, most of them numbers.
     """
-    for index in range(1, min(_DEEPEST, len(lines) - 1)):
+    for index in range(top + 1, min(top + _DEEPEST, len(lines) - 1)):
         cells, _ = notation_of(lines[index : index + 2])
         names, below = cells.split(lines[index]), cells.split(lines[index + 1])
         n_numbers = sum(map(looks_numeric, below))

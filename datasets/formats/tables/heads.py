@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.tables.columns import is_index
 from mocapbench.datasets.formats.tables.dialects import DIALECTS, PLAIN, Dialect, Place
 from mocapbench.datasets.formats.tables.header import check_lines, column_names
 from mocapbench.datasets.formats.tables.labels import Label, expand_parts, label_columns
@@ -24,6 +25,9 @@ __all__ = ["Head", "read_head"]
 
 _LONGEST = 300
 """Lines that a head has at most."""
+_AROUND = re.compile(r'[ "]*([,;\t])[ "]*')
+_ABOVE = re.compile(r'[ ,;\t\r\n"]*(?:sep=.)?[ ,;\t\r\n"]*', re.IGNORECASE)
+"""Lines above a head: blank ones, and the one that tells Excel what separates cells."""
 
 
 @dataclass(frozen=True)
@@ -60,12 +64,18 @@ def read_head(file: str, lines: Sequence[str]) -> Head:
         If the file is empty, or its head is not whole.
     """
     check_lines(file, lines)
-    dialect = _find_dialect(file, _join(lines[:_LONGEST]))
+    top = next((k for k, line in enumerate(lines) if not _ABOVE.fullmatch(line)), 0)
+    dialect = _find_dialect(file, _join(lines[top : top + _LONGEST]))
+    if dialect.no_motion:
+        what, _, advice = dialect.no_motion.partition(": ")
+        got = f"{what} of {dialect.program}"
+        raise FormatError(file, "positions or angles of a recording", got, advice, top + 1)
     if dialect is not PLAIN:
-        return _HeadLines(file, lines, dialect).head()
-    notation = notation_of(lines)
-    labels = [Label(name) for name in column_names(file, lines, notation[0])]
-    return Head(PLAIN, notation, 1, _end_of_rows(lines, 1), labels)
+        return _HeadLines(file, lines, dialect, top).head()
+    notation = notation_of(lines[top:])
+    labels = [Label(name) for name in column_names(file, lines, top, notation[0])]
+    stop = _end_of_rows(lines, top + 1, len(lines), labels)
+    return Head(PLAIN, notation, top + 1, stop, labels)
 
 
 def _find_dialect(file: str, text: str) -> Dialect:
@@ -76,16 +86,25 @@ def _find_dialect(file: str, text: str) -> Dialect:
 
 
 def _join(lines: Sequence[str]) -> str:
-    """Return lines as one text in which each ends with a line feed alone."""
-    return "".join(line.rstrip("\r\n") + "\n" for line in lines)
+    """Return plain lines as one text in which each ends with a line feed alone."""
+    return "".join(f"{_plain(line)}\n" for line in lines)
 
 
-def _end_of_rows(lines: Sequence[str], start: int) -> int:
-    """Return the index after the last line that is not blank."""
-    end = len(lines)
-    while end > start and not lines[end - 1].strip():
-        end -= 1
-    return end
+def _plain(line: str) -> str:
+    """Return a line without its end, and without quotes and blanks around its cells."""
+    return _AROUND.sub(r"\1", line.strip(' "\r\n'))
+
+
+def _end_of_rows(lines: Sequence[str], start: int, stop: int, labels: Sequence[Label]) -> int:
+    """Return the index after the last row.
+
+    Lines of separators alone are rows, of frames in which nothing is visible, only if no column
+    counts frames or times: spreadsheets add such lines.
+    """
+    blank = ' ,;\t\r\n"' if any(is_index(label.name) for label in labels) else None
+    while stop > start and not lines[stop - 1].strip(blank):
+        stop -= 1
+    return stop
 
 
 def _is_blank(line: str) -> bool:
@@ -95,9 +114,9 @@ def _is_blank(line: str) -> bool:
 class _HeadLines:
     """The lines of a head, found by what a dialect says of them."""
 
-    def __init__(self, file: str, lines: Sequence[str], dialect: Dialect) -> None:
+    def __init__(self, file: str, lines: Sequence[str], dialect: Dialect, top: int) -> None:
         self.file, self.lines, self.dialect = file, lines, dialect
-        self.first = self._first()
+        self.first = self._first(top)
         self.last = self._last()
         self.text = _join(lines[self.first : self.last + 1])
 
@@ -118,21 +137,24 @@ class _HeadLines:
         if len(parted) > len(labels):
             cells = Parts(f"{cells.separator},")
         rate, n_rows = self._number(self.dialect.rate), self._number(self.dialect.rows)
+        stop = _end_of_rows(self.lines, start, stop, parted)
         return Head(self.dialect, (cells, decimal), start, stop, parted, rate, n_rows)
 
-    def _first(self) -> int:
+    def _first(self, top: int) -> int:
         """Return the line with which the block begins that is to be read."""
         for title in self.dialect.blocks:
-            pattern = re.compile(rf'"?{title}"?[,;\t \r\n]*$', re.IGNORECASE)
+            pattern = re.compile(rf'[ "]*{title}[,;\t \r\n"]*$', re.IGNORECASE)
             for index, line in enumerate(self.lines):
                 if pattern.match(line):
                     return index
         if not self.dialect.blocks:
-            return 0
+            return top
         titles = " or ".join(self.dialect.blocks)
         expected = f"a block {titles} in a table of {self.dialect.program}"
-        got, advice = repr(self.lines[0].strip(' ,;\t\r\n"')[:60]), "export the trajectories too"
-        raise FormatError(self.file, expected, f"{got} only", advice, line=1)
+        got = repr(self.lines[top].strip(' ,;\t\r\n"')[:60])
+        raise FormatError(
+            self.file, expected, f"{got} only", "export the trajectories too", top + 1
+        )
 
     def _last(self) -> int:
         """Return the last line of the head."""
@@ -141,14 +163,14 @@ class _HeadLines:
             got = f"none in the first {min(_LONGEST, len(self.lines) - self.first)} lines"
             raise self._damaged(f"the line {self.dialect.ends_with!r}", got)
         for index in self._filled(found + 1):
-            if not re.match(self.dialect.further, self.lines[index]):
+            if not re.match(self.dialect.further, _plain(self.lines[index])):
                 break
             found = index
         return found
 
     def _stop(self, start: int) -> int:
-        """Return the end of the rows, which is a blank line where there are several blocks."""
-        end = _end_of_rows(self.lines, start)
+        """Return the end of the lines below the head, or of the first of several blocks."""
+        end = len(self.lines)
         if not self.dialect.blocks:
             return end
         return next((k for k in range(start, end) if _is_blank(self.lines[k])), end)
@@ -166,7 +188,7 @@ class _HeadLines:
         """Return the cells of the line that names the columns, or those that it would have."""
         line = self._naming_line()
         found = [cell.strip() for cell in cells.split(self.lines[line])]
-        if re.match(self.dialect.columns, self.lines[line]):
+        if re.match(self.dialect.columns, _plain(self.lines[line])):
             return found
         axes = [f"{name} {axis}" for name in found[1:] if name for axis in "XYZ"]
         below = cells.split(self.lines[start].rstrip()) if start < len(self.lines) else []
@@ -188,13 +210,13 @@ class _HeadLines:
 
     def _number(self, pattern: str) -> float | None:
         with suppress(ValueError):
-            number = float(self._fact(pattern))
+            number = float(self._fact(pattern).replace(",", "."))
             return number if isfinite(number) and number > 0 else None
         return None
 
     def _find(self, pattern: str, stop: int) -> int | None:
         within = range(self.first, min(stop, self.first + _LONGEST))
-        return next((k for k in within if re.match(pattern, self.lines[k])), None)
+        return next((k for k in within if re.match(pattern, _plain(self.lines[k]))), None)
 
     def _filled(self, start: int) -> Iterator[int]:
         return (k for k in range(start, len(self.lines)) if not _is_blank(self.lines[k]))

@@ -10,14 +10,16 @@ from typing import NamedTuple
 from mocapbench.datasets.formats.tables.columns import is_index, is_likelihood
 from mocapbench.datasets.formats.tables.dialects import Dialect
 
-__all__ = ["Label", "expand_parts", "label_columns"]
+__all__ = ["LENGTHS", "Label", "expand_parts", "label_columns"]
 
+LENGTHS = frozenset({"mm", "cm", "m"})
+"""Units of positions."""
 _LENGTH = frozenset({"x", "y", "z", "tx", "ty", "tz"})
 _ANGLE = frozenset({"rx", "ry", "rz", "roll", "pitch", "yaw"})
 _QUATERNION = frozenset({"qx", "qy", "qz", "qw"})
 _PARTS = {"Quaternion": ("qw", "qx", "qy", "qz"), "Vec3": ("x", "y", "z")}
 _WORDS = {"meters": "m", "centimeters": "cm", "millimeters": "mm", "yes": "deg", "no": "rad"}
-_NAME_AND_AXIS = re.compile(r"(.*\S) (X|Y|Z)", re.IGNORECASE)
+_NAME_AND_AXIS = re.compile(r"(.*\S) (Q?[XYZ]|QW|Roll|Pitch|Yaw)", re.IGNORECASE)
 
 
 class Label(NamedTuple):
@@ -104,10 +106,17 @@ def _names_of_columns(rows: _Rows) -> list[str]:
     found, name = [], ""
     for column, cell in enumerate(rows["axes"]):
         both = _NAME_AND_AXIS.fullmatch(cell)
-        name = (rows["names"][column] if rows["names"] else both[1] if both else "") or name
-        name = "" if is_index(cell) else name
+        alone = _is_alone(rows["axes"], column)
+        own = both[1] if both else cell if alone else ""
+        name = (rows["names"][column] if rows["names"] else own) or name
+        name = "" if cell and is_index(cell) else name
         found.append(name)
     return found
+
+
+def _is_alone(axes: Sequence[str], column: int) -> bool:
+    """Return whether a column has nothing but the name of a body, whose axes are to the right."""
+    return axes[column + 1 : column + 3] == ["X", "Y"]
 
 
 def _axis(cell: str) -> str:

@@ -33,8 +33,8 @@ def notation_of(lines: Sequence[str], *, by_blanks: bool = False) -> Notation:
     """
     separator = _separator(lines)
     cells = Separated(separator)
-    if by_blanks and len(cells.split(lines[0])) == 1:
-        return Words(), _POINT
+    if by_blanks and len(cells.split(lines[0].rstrip())) == 1:
+        return Words(), next(_decimal_marks(Words(), lines), _POINT)
     if separator == _COMMA:
         return cells, _POINT
     default = _COMMA if separator == ";" else _POINT

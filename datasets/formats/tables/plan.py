@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.text.numbers import looks_numeric
 from mocapbench.datasets.recording import Frames
 
 __all__ = ["RowPlan", "is_key", "plan_long", "plan_wide"]
@@ -26,9 +27,9 @@ _SPARSE = 8
 _FEW = 100_000
 
 
-RowPlan = tuple[NDArray[np.intp], tuple[Mapping[int, str], ...]]
-"""The row of each frame and group of channels (N, G), −1 where there is none; and of each group,
-the cells that tell its rows from others, by their columns."""
+RowPlan = tuple[NDArray[np.intp], tuple[Mapping[int, str], ...], tuple[int, ...]]
+"""The row of each frame and group of channels (N, G), −1 where there is none; of each group, the
+cells that all its rows share, by their columns; and the columns of them that tell groups apart."""
 
 
 def is_key(name: str) -> bool:
@@ -38,7 +39,7 @@ def is_key(name: str) -> bool:
 
 def plan_wide(n_rows: int) -> RowPlan:
     """Return the plan of a table with one row a frame."""
-    return np.arange(n_rows)[:, np.newaxis], ({},)
+    return np.arange(n_rows)[:, np.newaxis], ({},), ()
 
 
 def plan_long(
@@ -74,14 +75,29 @@ def plan_long(
         rows = np.full((len(frames), len(codes)), -1)
         rows[frame_of, group_of] = np.arange(len(index))
         if (rows >= 0).sum() == len(index):
-            groups = tuple(dict(zip(columns, cell, strict=True)) for cell in codes)
-            return rows, groups
+            return rows, _shared_cells(keys, group_of), columns
     raise _ambiguous(file, index, frame_of, keys, lines)
 
 
+def _shared_cells(
+    keys: Mapping[int, Sequence[str]], group_of: NDArray[np.intp]
+) -> tuple[Mapping[int, str], ...]:
+    """Return the cells that all rows of each group share, of the columns that vary within none."""
+    _, first_rows = np.unique(group_of, return_index=True)
+    shared = [
+        column
+        for column, cells in keys.items()
+        if len({*zip(group_of.tolist(), cells, strict=True)}) == len(first_rows)
+    ]
+    return tuple({column: keys[column][row] for column in shared} for row in first_rows.tolist())
+
+
 def _candidates(keys: Mapping[int, Sequence[str]]) -> Iterable[tuple[int, ...]]:
-    """Yield one column, two, and so on, those with fewest different cells first."""
-    columns = sorted(keys, key=lambda column: len(set(keys[column])))
+    """Yield one column, two, and so on, those with fewest different cells first.
+
+    Of equals, those of text come first: names say more than numbers.
+    """
+    columns = sorted(keys, key=lambda one: (len({*keys[one]}), looks_numeric(keys[one][0])))
     for size in range(1, min(len(columns), 4) + 1):
         yield from combinations(columns, size)
 

@@ -25,6 +25,7 @@ from mocapbench.datasets.formats.tables.dialects import PLAIN
 from mocapbench.datasets.formats.tables.frame_times import FrameTimes, lacking_rows
 from mocapbench.datasets.formats.tables.heads import Head, read_head
 from mocapbench.datasets.formats.tables.kinds import are_numbers
+from mocapbench.datasets.formats.tables.labels import LENGTHS
 from mocapbench.datasets.formats.tables.plan import RowPlan, is_key, plan_long, plan_wide
 from mocapbench.datasets.formats.text.lines import read_lines
 from mocapbench.datasets.formats.text.numbers import looks_numeric
@@ -55,7 +56,9 @@ class Sheet:
     rows : ndarray of int of shape (N, G)
         Which row has which frame, and which of G groups of channels; −1 where none has.
     groups : tuple of G mappings of int to str
-        The cells that tell the rows of a group from others, by their columns.
+        The cells that all rows of a group share, by their columns.
+    named_by : tuple of int
+        The columns of them that tell groups apart.
     """
 
     table: TextTable
@@ -65,6 +68,7 @@ class Sheet:
     numbers: Mapping[int, Frames]
     rows: NDArray[np.intp]
     groups: tuple[Mapping[int, str], ...]
+    named_by: tuple[int, ...]
 
     def recording(self, rate: float | None) -> Recording:
         """Return the recording, at a rate in place of the times of the table if one is given."""
@@ -80,10 +84,8 @@ class Sheet:
         values = self._spread(self.columns.channels)
         for lost in self.lost_bodies():
             values[lost] = np.nan
-        units = [self._label(column)[1] for column in self.columns.channels]
-        units *= len(self.groups)
         times = given.seconds(n_frames, rate)
-        return recording_of(file, times, values, self._channels(), units)
+        return recording_of(file, times, values, self._channels(), self._units())
 
     def lost_bodies(self) -> Iterator[tuple[NDArray[np.intp], ...]]:
         """Yield where a marker or body is at 0, 0, 0, if that means that it is missing.
@@ -92,17 +94,23 @@ class Sheet:
         """
         values = self._spread(self.columns.channels)
         bodies: dict[str, dict[str, int]] = {}
+        units = self._units()
         for column, name in enumerate(self._channels() if self.head.dialect.zeros else ()):
             body, _, axis = name.rpartition(".")
             bodies.setdefault(body, {})[axis] = column
         for axes in bodies.values():
-            if {"x", "y", "z"} <= axes.keys():
+            # A force, for instance, may be 0, 0, 0.
+            if {"x", "y", "z"} <= axes.keys() and units[axes["x"]] in LENGTHS:
                 position = values[:, [axes["x"], axes["y"], axes["z"]]]
                 yield np.ix_((position == 0.0).all(axis=1), [*axes.values()])
 
     def _channels(self) -> list[str]:
         names = [self._label(column)[0] for column in self.columns.channels]
         return [f"{self._prefix(group)}{name}" for group in self.groups for name in names]
+
+    def _units(self) -> list[str]:
+        units = [self._label(column)[1] for column in self.columns.channels]
+        return units * len(self.groups)
 
     def likelihoods(self) -> FrameByChannel:
         """Return how likely the table says each entry is (N, D), NaN where it does not say it."""
@@ -173,7 +181,7 @@ class Sheet:
     def _prefix(self, group: Mapping[int, str]) -> str:
         cells = (
             f"{self.table.names[column].strip()}_{cell.strip()}" if looks_numeric(cell) else cell
-            for column, cell in group.items()
+            for column, cell in ((column, group[column]) for column in self.named_by)
         )
         return "".join(f"{cell.strip()}." for cell in cells if cell.strip())
 
@@ -220,12 +228,13 @@ def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
     wanted = sorted({*columns.channels, *columns.likelihoods.values(), *_index_columns(columns)})
     values = table.numbers(wanted)
     numbers = {column: values[:, place] for place, column in enumerate(wanted)}
-    (rows, groups), columns = _plan_rows(table, columns, numbers)
+    (rows, groups, named_by), columns = _plan_rows(table, columns, numbers)
     keys = {column for group in groups for column in group}
     if head.dialect is PLAIN:
         warn_of_text(file, [names[k] for k in columns.left_out if k not in keys])
     _compare_counts(file, head, len(values))
-    return Sheet(table, lines[head.stop :], head, columns, numbers, rows, groups)
+    below = lines[head.stop :]
+    return Sheet(table, below, head, columns, numbers, rows, groups, named_by)
 
 
 def _check_filled(file: str, head: Head, columns: TableColumns, n_rows: int) -> None:
@@ -279,10 +288,10 @@ def _plan_rows(
         apart = {k for k in keys if k in numbers and _is_constant(numbers[k])}
         channels = tuple(column for column in columns.channels if column not in apart)
         return plan_wide(len(table.rows)), columns._replace(channels=channels)
-    rows, groups = plan_long(table.file, index[-1], _cells_of(table, keys), table.rows)
-    told = {column for group in groups for column in group}
-    channels = tuple(column for column in columns.channels if column not in told)
-    return (rows, groups), columns._replace(channels=channels)
+    plan = plan_long(table.file, index[-1], _cells_of(table, keys), table.rows)
+    shared = {column for group in plan[1] for column in group}
+    channels = tuple(column for column in columns.channels if column not in shared)
+    return plan, columns._replace(channels=channels)
 
 
 def _cells_of(table: TextTable, columns: Sequence[int]) -> dict[int, list[str]]:

@@ -194,7 +194,6 @@ def test_without_a_decimal_mark_semicolons_tell_of_commas(read, tmp_path):
             "1.5,2,3\n2.5,3,4\n",
             "line 1: .* got '1.5,2,3'; export the table with its head, or",
         ),
-        ("sep=;\ntime;hip\n0;1\n", "line 1: .*, got 'sep=;'; remove what stands above"),
         ("time,hip\r0,1\n1,2\r", "line 1: .* end with LF or CR LF, got .* CR alone; save it"),
         ("time,hip\n0,1\n1,\0\n", "line 3: expected text in UTF-8, .* got a NUL byte; save"),
         ("t\0,\0h\0\n\0", "expected text in UTF-8, .* got UTF-16 without that mark; save it"),

@@ -312,3 +312,31 @@ def test_likelihoods_of_rows_are_those_of_their_markers(tmp_path, table):
     assert likelihoods.shape == table.values.shape
     low = np.argwhere(likelihoods < 0.5).tolist()
     assert low == ([[k, c] for k in (20, 21) for c in range(3)] if "long" in table.name else [])
+
+
+def test_of_several_likelihoods_the_first_counts_and_none_is_a_channel(read, tmp_path):
+    walk = read("frame,nose_x,nose_visibility,nose_presence\n0,1,0.5,0.9\n1,2,0.5,0.9\n", 30.0)
+    assert walk.channels == ("nose_x",)
+    np.testing.assert_array_equal(CSV.likelihoods(tmp_path / "walk.csv"), [[0.5], [0.5]])
+
+
+@pytest.mark.parametrize(
+    "name", ["reprojection_error", "nose_error", "nose_ncams", "instance.score"]
+)
+def test_what_says_how_well_a_point_was_found_is_no_channel(read, name):
+    assert read(f"nose_x,{name}\n1,0.5\n2,0.5\n", 30.0).channels == ("nose_x",)
+
+
+def test_of_numbers_and_names_of_markers_the_names_tell_rows_apart(read, tmp_path):
+    """What else all rows of a marker share is no channel, and stands in rows that are added."""
+    rows = [f"{k},{m},{name},Ann,{k}.5" for k in range(4) for m, name in ((0, "A"), (1, "B"))]
+    del rows[3]
+    walk = read("\n".join(["frame,landmark_id,landmark_name,person,x", *rows, ""]), 30.0)
+    assert walk.channels == ("A.x", "B.x")
+    filled = walk.with_values(np.where(walk.visible, walk.values, 7.25))
+    CSV.write(tmp_path / "out.csv", filled, tmp_path / "walk.csv")
+    assert "1,1,B,Ann,7.25" in (tmp_path / "out.csv").read_text().splitlines()
+
+
+def test_anipose_counts_its_frames_as_fnum(read):
+    assert read("nose_x,fnum\n1,7\n2,8\n", 30.0).channels == ("nose_x",)

@@ -81,7 +81,7 @@ def test_a_cell_too_many_too_few_and_a_word_in_a_number_are_named(table, tmp_pat
     separator = split.separator or " "
     word = split.replace_cells(lines[place], {sheet.columns.channels[-1]: "1.2x"})
     many = lines[place].rstrip("\r\n") + separator.join(["", "7.5", "7.5", "7.5"]) + "\n"
-    few = lines[place][: lines[place].rindex(cells[2]) - 1] + "\n"
+    few = lines[place][: lines[place].rindex(next(filter(None, cells[2:]))) - 1] + "\n"
     for wrong, complaint in (
         (many, r"expected \d+ cells.* got \d+ cells"),
         (few, r"expected \d+ cells.* got \d+ cells"),
@@ -147,6 +147,37 @@ def test_devices_alone_are_no_recording_of_motion(tmp_path):
     path.write_text("\n".join(rows))
     with pytest.raises(FormatError, match=r"a block Trajectories .* Vicon Nexus, got 'Devices' on"):
         CSV.read(path)
+
+
+def test_a_force_may_be_zero(tmp_path):
+    head = ["Model Outputs", "100", ",,Ann:PlateForce,,", "Frame,Sub Frame,X,Y,Z", ",,N,N,N"]
+    path = tmp_path / "forces.csv"
+    path.write_text("\n".join([*head, "1,0,5,0,9", "2,0,0,0,0", "3,0,5,0,9", ""]))
+    assert CSV.read(path).visible.all()
+
+
+OTHERS = {
+    "samples": ["NO_OF_SAMPLES\t2", "TOT_NO_OF_CHAN\t2", "CHANNEL_NAMES\tEMG1\tEMG2", "1\t2"],
+    "samples, version 2": ["FILE_VERSION\t2.0.0", "TOT_NO_OF_CHAN\t2", "CHANNEL_NAMES\tA", "1"],
+    "forces": ["NO_OF_SAMPLES\t2", "FORCE_PLATE_NAME\tPlate 1", "Force_X\tForce_Y", "1\t2"],
+    "2D": ["NO_OF_FRAMES\t2", "NO_OF_CAMERAS\t2", "DATA_INCLUDED\t2D", "", "1\t2"],
+}
+
+
+@pytest.mark.parametrize("kind", OTHERS)
+def test_what_is_no_motion_is_refused_by_the_program_s_name(kind, tmp_path):
+    path = tmp_path / "walk_a.tsv"
+    path.write_text("\r\n".join([*OTHERS[kind], ""]), newline="")
+    with pytest.raises(FormatError, match=r"got analogue .* of Qualisys Track Manager; export 3D"):
+        CSV.read(path, 100.0)
+
+
+def test_qualisys_may_name_the_version_of_its_table(tmp_path):
+    table, path = TABLES["qualisys"], tmp_path / "walk.tsv"
+    path.write_text(f"FILE_VERSION\t2.0.0\r\n{table.text}", newline="")
+    walk = CSV.load(path, None)
+    assert (walk.channels, walk.units) == (table.channels, table.units)
+    np.testing.assert_allclose(walk.values, table.values)
 
 
 @pytest.mark.parametrize("name", ["nexus, zeros", "qualisys", "qualisys 6D"])
