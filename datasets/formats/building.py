@@ -2,40 +2,22 @@
 
 from __future__ import annotations
 
-import warnings
 from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
 
-from mocapbench.datasets.formats.errors import FormatError, FormatWarning
+from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
 
-__all__ = ["even_times", "recording_of", "warn_of_missing_rows"]
+__all__ = ["even_times", "recording_of"]
 
 _HUGE = 1e100  # far from where arithmetic on the values could overflow
-_JUMP = 1.5  # steps of time
 
 
 def even_times(n_frames: int, rate: float) -> Frames:
     """Return the times of frames at ``rate`` per second, in seconds from 0."""
     return np.arange(n_frames) / rate
-
-
-def warn_of_missing_rows(recording: Recording) -> None:
-    """Warn where times jump by nearly two frames or more, for rows were left out there."""
-    steps = np.diff(recording.times)
-    usual = np.median(steps) if len(steps) else np.inf
-    jumps = np.flatnonzero(steps > _JUMP * usual)
-    if len(jumps):
-        n_missing = np.round(steps[jumps] / usual - 1.0).sum()
-        warnings.warn(
-            f"{recording.name}: expected a frame every {usual:g} s, got {len(jumps)} longer steps, "
-            f"the first after {recording.times[jumps[0]]:g} s: about {n_missing:.0f} rows are "
-            "missing, which stay so",
-            FormatWarning,
-            stacklevel=2,
-        )
 
 
 def recording_of(

@@ -7,27 +7,34 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from dataclasses import replace
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from mocapbench.datasets.formats.base import Format
-from mocapbench.datasets.formats.building import (
-    even_times,
-    recording_of,
-    warn_of_missing_rows,
-)
 from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.markers.channels import marker_channels
 from mocapbench.datasets.formats.markers.trc_head import LEADING, TRCHead, parse_head
+from mocapbench.datasets.formats.missing_rows import counts_frames
+from mocapbench.datasets.formats.tables.columns import TableColumns
+from mocapbench.datasets.formats.tables.dialects import Dialect
+from mocapbench.datasets.formats.tables.heads import Head
+from mocapbench.datasets.formats.tables.labels import Label
+from mocapbench.datasets.formats.tables.plan import plan_wide
+from mocapbench.datasets.formats.tables.sheet import Sheet
+from mocapbench.datasets.formats.tables.table_format import TableFormat
 from mocapbench.datasets.formats.text.cells import CellSplitter, Separated
-from mocapbench.datasets.formats.text.lines import read_lines, write_lines
+from mocapbench.datasets.formats.text.lines import read_lines
 from mocapbench.datasets.formats.text.rows import TextTable
-from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
+from mocapbench.datasets.recording import Frames
 
 __all__ = ["TRCFormat"]
 
+_DIALECT = Dialect(program="TRC", sign="")
+_FRAME, _TIME = range(LEADING)
 
-class TRCFormat(Format):
+
+@dataclass(frozen=True)
+class TRCFormat(TableFormat):
     """Positions of markers (.trc), as OpenSim, Cortex, Mokka and people write them.
 
     The channels are ``LKNE.x``, ``LKNE.y``, ``LKNE.z`` and so on, in the unit that the file states;
@@ -35,29 +42,30 @@ class TRCFormat(Format):
     or NaN are hidden; a marker at the origin is one at the origin. The rows that there are count:
     what the head says of them otherwise is warned of. Every line keeps its numbers, but for the
     coordinates that are filled.
+
+    Parameters
+    ----------
+    inserts : bool
+        Whether rows that are missing, as times or frames show, are read as hidden frames, and are
+        written.
     """
 
     suffixes = (".trc",)
-    memory_per_byte = 12.0
 
-    def load(self, path: Path, rate: float | None) -> Recording:
-        """Return the recording with the values that the file has."""
+    def sheet(self, path: Path) -> Sheet:
+        """Return the table of a file, without rows that are missing."""
         head, markers, table = _parse(path)
-        values = table.numbers(range(LEADING - 1, table.width))
-        _check_end(table, head.count("NumFrames"), len(values))
-        _warn_of_counts(path.name, head, markers, len(values))
-        times = values[:, 0] if rate is None else even_times(len(values), rate)
-        channels = marker_channels(markers)
-        units = [head.facts.get("Units", "")] * len(channels)
-        recording = recording_of(path.name, times, values[:, 1:], channels, units)
-        warn_of_missing_rows(recording)
-        return recording
-
-    def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
-        """Write the file's lines with the new coordinates."""
-        _, _, table = _parse(like)
-        columns = range(LEADING, table.width)
-        write_lines(path, table.with_numbers(columns, values, new), like)
+        labels = _label_columns(markers, head.facts.get("Units", ""))
+        table = replace(table, names=[label.name for label in labels])
+        numbers = _read_numbers(table)
+        n_frames = len(numbers[_TIME])
+        _check_end(table, head.count("NumFrames"), n_frames)
+        _warn_of_counts(path.name, head, markers, n_frames)
+        notation, rows = (table.cells, table.decimal), (head.start, len(table.lines))
+        above = Head(_DIALECT, notation, *rows, labels, head.count("DataRate"))
+        frame = _FRAME if _FRAME in numbers else None
+        columns = TableColumns(_TIME, frame, tuple(range(LEADING, table.width)), (), {})
+        return Sheet(table, (), above, columns, numbers, *plan_wide(n_frames))
 
 
 class _SpacedTable(TextTable):
@@ -78,6 +86,21 @@ def _parse(path: Path) -> tuple[TRCHead, Sequence[str], TextTable]:
     markers = head.markers(path.name, max(widest - LEADING, 0))
     width, decimal = LEADING + 3 * len(markers), _decimal_mark(head.cells, table)
     return head, markers, replace(table, width=width, decimal=decimal)
+
+
+def _label_columns(markers: Sequence[str], unit: str) -> list[Label]:
+    coordinates = [Label(name, unit) for name in marker_channels(markers)]
+    return [Label("Frame#"), Label("Time"), *coordinates]
+
+
+def _read_numbers(table: TextTable) -> dict[int, Frames]:
+    """Return the columns of numbers; those of frames only if they count, as little depends on it."""
+    values = table.numbers(range(LEADING - 1, table.width))
+    numbers = dict(enumerate(values.T, start=LEADING - 1))
+    with suppress(FormatError):
+        frames = table.numbers([_FRAME])[:, 0]
+        numbers |= {_FRAME: frames} if counts_frames(frames) else {}
+    return numbers
 
 
 def _n_used(cells: Sequence[str]) -> int:

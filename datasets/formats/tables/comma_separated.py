@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
-from mocapbench.datasets.formats.base import Format
-from mocapbench.datasets.formats.tables.insertion import lines_with
 from mocapbench.datasets.formats.tables.sheet import Sheet, read_sheet
-from mocapbench.datasets.formats.text.lines import write_lines
-from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
+from mocapbench.datasets.formats.tables.table_format import TableFormat
 
 __all__ = ["CSVFormat"]
 
 
 @dataclass(frozen=True)
-class CSVFormat(Format):
+class CSVFormat(TableFormat):
     r"""Tables of text (.csv, .tsv, .mot, .sto): a row a frame, a column for each channel.
 
     Tables of OptiTrack Motive, Vicon Nexus, Qualisys, DeepLabCut and OpenSim are known by their
@@ -50,31 +47,8 @@ class CSVFormat(Format):
     ['time;knee [deg]', '0;1,50', '0,1;2,0', '0,2;2,50']
     """
 
-    inserts: bool = False
-
     suffixes = (".csv", ".tsv", ".mot", ".sto")
-    memory_per_byte = 12.0
 
-    def load(self, path: Path, rate: float | None) -> Recording:
-        """Return the recording with the values that the file has."""
-        sheet = read_sheet(path)
-        if not self.inserts:
-            sheet.warn_of_lacking("; --insert-missing inserts them as hidden frames")
-        return self._completed(sheet).recording(rate)
-
-    def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
-        """Write the file's lines with the new cells."""
-        sheet = self._completed(read_sheet(like))
-        write_lines(path, lines_with(sheet, values, new), like)
-
-    def likelihoods(self, path: Path) -> FrameByChannel | None:
-        """Return how likely the file says each entry is, if it has a column for that."""
-        sheet = self._completed(read_sheet(path))
-        return sheet.likelihoods() if sheet.columns.likelihoods else None
-
-    def with_missing_rows(self) -> CSVFormat:
-        """Return the format that reads rows that are missing as hidden frames, and adds them."""
-        return replace(self, inserts=True)
-
-    def _completed(self, sheet: Sheet) -> Sheet:
-        return sheet.with_lacking() if self.inserts else sheet
+    def sheet(self, path: Path) -> Sheet:
+        """Return the table of a file, without rows that are missing."""
+        return read_sheet(path)

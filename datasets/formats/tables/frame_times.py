@@ -7,23 +7,18 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.datasets.formats.errors import FormatError, FormatWarning
+from mocapbench.datasets.formats.missing_rows import counts_frames, most_common_step
 from mocapbench.datasets.recording import Frames
 
-__all__ = ["FrameTimes", "lacking_rows"]
+__all__ = ["FrameTimes"]
 
 _SECONDS = {"s": 1.0, "m": 1e-3, "μ": 1e-6, "n": 1e-9}
 _NAMES = {"m": "milliseconds", "μ": "microseconds", "n": "nanoseconds"}
 _LARGEST_STEPS = {"s": 2.0, "m": 1e3, "μ": 1e6}
 """Below these, times without a unit are in that one: of 0.5 to 1000 frames a second."""
-_REGULAR, _JUMP = 0.3, 1.7
-"""Of the usual step: how far others are from multiples, and from which on a row is missing."""
-_MOSTLY = 0.9
-"""Of steps that are near a multiple: below, times are uneven, and tell of no missing row."""
 _AGREEING = 0.01
-_HUGE = 1e15  # counts beyond are no whole numbers of a double
 
 
 class FrameTimes(NamedTuple):
@@ -66,11 +61,11 @@ class FrameTimes(NamedTuple):
             If nothing says them.
         """
         count = np.arange(float(n_frames))
-        counted = count if self.frames is None or not _counts(self.frames) else self.frames
+        counted = count if self.frames is None or not counts_frames(self.frames) else self.frames
         counted = counted - counted[:1].sum()
         if rate is not None:
-            return np.asarray(counted / _most_common_step(counted) / rate)
-        if self.times is not None:
+            return np.asarray(counted / most_common_step(counted) / rate)
+        if self.times is not None and not self._are_useless(self.times):
             return self._by_column(self.times)
         if self.rate is None:
             advice = "name the rate in frames per second, such as --rate 100"
@@ -79,6 +74,23 @@ class FrameTimes(NamedTuple):
             got = f"the columns {some}{', …' if len(self.names) > 4 else ''}"
             raise FormatError(self.file, expected, got, advice)
         return np.asarray(counted / self.rate)
+
+    def _are_useless(self, times: Frames) -> bool:
+        """Return whether times are all missing or rounded so that some repeat, with a warning.
+
+        Without a rate they are not, as nothing could take their place.
+        """
+        if self.rate is None or not len(times):
+            return False
+        told = "missing" if np.isnan(times).all() else _are_rounded(times, self.rate)
+        if told:
+            warnings.warn(
+                f"{self.file}: times are {told}: those of {self.rate:g} frames per second, as the "
+                "head says, are taken; name another rate with --rate",
+                FormatWarning,
+                stacklevel=2,
+            )
+        return bool(told)
 
     def _by_column(self, times: Frames) -> Frames:
         unit = self.unit or _guess_unit(times)
@@ -105,41 +117,6 @@ class FrameTimes(NamedTuple):
             )
 
 
-def lacking_rows(frames: Frames | None, times: Frames | None) -> NDArray[np.intp]:
-    """Return how many rows are missing behind each of N rows but the last, (N − 1,).
-
-    A count of frames says it, or else times, if their steps are about multiples of the usual one.
-    """
-    if frames is not None and _counts(frames):
-        return _count_lacking(np.diff(frames) / _most_common_step(frames))
-    steps = np.diff(times) if times is not None else np.empty(0)
-    usual = np.median(steps) if len(steps) else 0.0
-    if times is None or not np.isfinite(steps).all() or not usual > 0:
-        return np.zeros(0 if times is None else len(steps), dtype=np.intp)
-    whole = np.maximum(np.round(steps / usual), 1.0)
-    regular = np.abs(steps / usual - whole) <= _REGULAR
-    if regular.mean() < _MOSTLY:
-        return np.zeros(len(steps), dtype=np.intp)
-    return _count_lacking(np.where(steps / usual >= _JUMP, steps / usual, 1.0))
-
-
-def _count_lacking(steps: Frames) -> NDArray[np.intp]:
-    """Return how many frames are missing within steps, in units of the usual one."""
-    return np.minimum(np.round(steps) - 1.0, _HUGE).clip(0).astype(np.intp)
-
-
-def _counts(frames: Frames) -> bool:
-    """Return whether they are whole numbers that rise."""
-    known = np.isfinite(frames).all() and (np.abs(frames) < _HUGE).all()
-    return bool(known and (np.diff(frames) > 0).all() and (frames == np.round(frames)).all())
-
-
-def _most_common_step(frames: Frames) -> float:
-    """Return the step between most frames, of whole numbers that rise."""
-    steps, counts = np.unique(np.diff(frames), return_counts=True)
-    return float(steps[counts.argmax()]) if len(steps) else 1.0
-
-
 def _usual_step(values: Frames) -> float:
     """Return the median of the steps, or 1 if it is not above 0."""
     steps = np.diff(values[np.isfinite(values)])
@@ -150,3 +127,13 @@ def _usual_step(values: Frames) -> float:
 def _guess_unit(times: Frames) -> str:
     step = _usual_step(times) if len(times) > 1 else 0.0
     return next((unit for unit, largest in _LARGEST_STEPS.items() if step < largest), "n")
+
+
+def _are_rounded(times: Frames, rate: float) -> str:
+    """Return by how much times are rounded if some repeat, and no more is wrong with them."""
+    steps = np.diff(times)
+    if not (np.isfinite(times).all() and (steps >= 0).all() and (steps == 0).any() and steps.any()):
+        return ""
+    unit = float(steps[steps > 0].min())
+    away = np.abs(times - times[0] - np.arange(len(times)) / rate).max()
+    return f"rounded to {unit:.2g} s" if away <= unit else ""

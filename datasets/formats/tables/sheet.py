@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets.formats.building import recording_of
 from mocapbench.datasets.formats.errors import FormatError, FormatWarning
+from mocapbench.datasets.formats.missing_rows import count_missing_rows, warn_of_missing_rows
 from mocapbench.datasets.formats.tables.columns import (
     TableColumns,
     is_index,
@@ -22,7 +23,7 @@ from mocapbench.datasets.formats.tables.columns import (
     warn_of_text,
 )
 from mocapbench.datasets.formats.tables.dialects import PLAIN
-from mocapbench.datasets.formats.tables.frame_times import FrameTimes, lacking_rows
+from mocapbench.datasets.formats.tables.frame_times import FrameTimes
 from mocapbench.datasets.formats.tables.heads import Head, read_head
 from mocapbench.datasets.formats.tables.kinds import are_numbers
 from mocapbench.datasets.formats.tables.labels import LENGTHS
@@ -121,23 +122,15 @@ class Sheet:
 
     def warn_of_lacking(self, advice: str) -> None:
         """Say which rows are missing."""
-        lacking = self.lacking()
-        places = np.flatnonzero(lacking)
-        if len(places):
-            line = self.table.rows[int(self.rows[places[0]].max())] + 1
-            n_rows, more = int(lacking.sum()), f" and {len(places) - 1} later places"
-            are = "row is" if n_rows == 1 else "rows are"
-            warnings.warn(
-                f"{self.table.file}: {n_rows} {are} missing, behind line {line}"
-                f"{more if len(places) > 2 else ' and once later' if len(places) == 2 else ''}, "
-                f"by the steps of {self._named_index()}{advice}",
-                FormatWarning,
-                stacklevel=2,
-            )
+        where = self._name_line
+        warn_of_missing_rows(self.table.file, self.lacking(), where, self._named_index(), advice)
+
+    def _name_line(self, frame: int) -> str:
+        return f"line {self.table.rows[int(self.rows[frame].max())] + 1}"
 
     def lacking(self) -> NDArray[np.intp]:
         """Return how many frames are missing behind each but the last (N − 1,)."""
-        return lacking_rows(self.index(self.columns.frame), self.index(self.columns.time))
+        return count_missing_rows(self.index(self.columns.frame), self.index(self.columns.time))
 
     def with_lacking(self) -> Sheet:
         """Return the sheet with the frames of which there is no row.

@@ -138,7 +138,7 @@ ODD = {  # each with what it warns of
     ),
     "missing rows": (
         lambda t: without_rows(t, 40, 43).replace("\t40\t", "\t37\t"),
-        "every 0.008333 s, got 1 longer steps, the first after 0.275 s: about 3 rows are miss",
+        "3 rows are missing, behind line 40, by the steps of 'Frame#'; --insert-missing",
     ),
     "decimal counts": (lambda t: t.replace("\t40\t5\t", "\t40.00\t5.0\t"), ""),
     "counts in words": (lambda t: t.replace("\t40\t5\t", "\tmany\tfew\t"), ""),
@@ -244,6 +244,45 @@ def test_facts_are_known_whatever_stands_between_them(given, between):
         UserWarning, match="expected NumFrames to be 41, as line 3 says, got 40 rows"
     ):
         assert set(TRC.read(given).units) == {"mm"}
+
+
+def test_rows_that_are_missing_are_added(given, tmp_path):
+    plain, text = TRC.read(given), given.read_bytes().decode()
+    given.write_text(without_rows(text, 15, 17), newline="")
+    kind = TRC.with_missing_rows()
+    with warnings.catch_warnings(action="ignore"):  # the head states more rows
+        short = kind.read(given)
+        kind.write(tmp_path / "out.trc", plain.with_values(np.nan_to_num(plain.values)), given)
+    assert (~short.visible).all(axis=1).nonzero()[0].tolist() == [9, 10]
+    written = (tmp_path / "out.trc").read_bytes().decode().splitlines()[15:17]
+    assert [line.split("\t")[0] for line in written] == ["10", "11"]
+    times = [float(line.split("\t")[1]) for line in written]
+    np.testing.assert_allclose(times, [9 / 120, 10 / 120], atol=2e-6)
+    np.testing.assert_allclose(TRC.read(tmp_path / "out.trc").values[9:11], plain.values[9:11])
+
+
+@pytest.mark.parametrize(("digits", "what"), [(2, "rounded to 0.01 s"), (1, "rounded to 0.1 s")])
+def test_times_that_repeat_as_they_are_rounded_are_those_of_the_rate(given, digits, what):
+    text = given.read_bytes().decode()
+    given.write_text(
+        with_cells(text, lambda row: [row[0], f"{float(row[1]):.{digits}f}", *row[2:]]), newline=""
+    )
+    with pytest.warns(UserWarning, match=f"times are {what}: those of 120 frames per second"):
+        walk = TRC.read(given)
+    np.testing.assert_allclose(walk.times, np.arange(40) / 120)
+
+
+def test_times_that_are_missing_are_those_of_the_rate(given):
+    text = given.read_bytes().decode()
+    given.write_text(with_cells(text, lambda row: [row[0], "", *row[2:]]), newline="")
+    with pytest.warns(UserWarning, match="times are missing: those of 120 frames per second"):
+        np.testing.assert_allclose(TRC.read(given).times, np.arange(40) / 120)
+
+
+def test_a_rate_that_disagrees_with_the_times_is_said(given):
+    given.write_text(given.read_text().replace("120.00\t120.00", "100.00\t120.00"), newline="")
+    with pytest.warns(UserWarning, match="expected 100 frames per second, .* got 120 by its times"):
+        TRC.read(given)
 
 
 LABELS = st.lists(st.sampled_from(["", "LKNE", "R.Knee Lat", "*12", "Fuß", "a-b", "7"]), max_size=6)
