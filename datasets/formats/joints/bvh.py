@@ -16,20 +16,19 @@ from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.text.cells import Words
 from mocapbench.datasets.formats.text.lines import read_lines, write_lines
 from mocapbench.datasets.formats.text.numbers import numeric
-from mocapbench.datasets.formats.text.rows import TextTable
+from mocapbench.datasets.formats.text.rows import SpacedTable, TextTable
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["BVHFormat"]
 
 _CHANNELS = {
-    "Xposition": ("tx", ""),
-    "Yposition": ("ty", ""),
-    "Zposition": ("tz", ""),
-    "Xrotation": ("rx", "deg"),
-    "Yrotation": ("ry", "deg"),
-    "Zrotation": ("rz", "deg"),
+    f"{axis}{kind}": (letter + axis, unit)
+    for kind, letter, unit in (("position", "t", ""), ("rotation", "r", "deg"), ("scale", "s", ""))
+    for axis in "xyz"
 }
 """Suffix of the channel's name, and unit; the format does not state that of positions."""
+_LONGEST_FRAME = 2.0
+"""Seconds; what is stated as more is in milliseconds."""
 
 
 class BVHFormat(Format):
@@ -38,8 +37,8 @@ class BVHFormat(Format):
     The channels are ``Hips.tx``, ``Hips.rz``, ``LeftKnee.rx`` and so on, in the order of the file;
     rotations are in degrees. The word ``nan`` is a hidden entry, which some programs write; in
     other files the gaps are those that the user names. All rows are read, with a warning if
-    they are more than the file states, or one fewer. Every line keeps its numbers, but for those
-    that are filled.
+    they are more than the file states, or one fewer. Words may be in upper or lower case, and
+    numbers may have decimal commas. Every line keeps its numbers, but for those that are filled.
     """
 
     suffixes = (".bvh",)
@@ -50,7 +49,7 @@ class BVHFormat(Format):
         channels, (n_frames, frame_time), table = _parse(path)
         values = table.numbers(range(table.width))
         _check_count(path.name, n_frames, len(values))
-        times = even_times(len(values), rate or 1.0 / frame_time)
+        times = even_times(len(values), rate or 1.0 / _frame_seconds(path.name, frame_time))
         names, units = [name for name, _ in channels], [unit for _, unit in channels]
         return recording_of(path.name, times, values, names, units)
 
@@ -66,7 +65,12 @@ class _Lines:
     def __init__(self, file: str, lines: Sequence[str]) -> None:
         self.file = file
         self.index = 0
-        self._content = ((k, line.split()) for k, line in enumerate(lines) if line.strip())
+        self._content = (
+            (k, words)
+            for k, line in enumerate(lines)
+            for words in _split_brace(line.split())
+            if words
+        )
 
     def __iter__(self) -> Iterator[list[str]]:
         for index, words in self._content:
@@ -80,14 +84,33 @@ class _Lines:
         return FormatError(self.file, expected, got, advice, self.index + 1)
 
 
+def _split_brace(words: list[str]) -> tuple[list[str], ...]:
+    """Return the words of a line, and apart from them a brace that ends it."""
+    return (words[:-1], words[-1:]) if words[-1:] == ["{"] else (words,)
+
+
 def _parse(path: Path) -> tuple[list[tuple[str, str]], tuple[float, float], TextTable]:
     """Return names and units of the channels, number and time of frames as stated, and the rows."""
     text = read_lines(path)
     lines = _Lines(path.name, text)
     channels = list(_hierarchy(lines))
-    stated = _positive(lines, "Frames:"), _positive(lines, "Frame", "Time:")
-    width = len(channels)
-    return channels, stated, TextTable(path.name, text, lines.index + 1, Words(), width, width)
+    stated = _positive(lines, "Frames:"), _positive(lines, "Frame Time:")
+    width, start = len(channels), lines.index + 1
+    decimal = "," if "," in "".join(text[start : start + 1]) else "."
+    return channels, stated, SpacedTable(path.name, text, start, Words(), width, width, decimal)
+
+
+def _frame_seconds(file: str, frame_time: float) -> float:
+    """Return the seconds of a frame, with a warning if milliseconds seem to be stated."""
+    if frame_time < _LONGEST_FRAME:
+        return frame_time
+    warnings.warn(
+        f"{file}: 'Frame Time:' is {frame_time:g}, so it is taken for milliseconds; name the rate "
+        "with --rate if it is not",
+        FormatWarning,
+        stacklevel=2,
+    )
+    return frame_time / 1000.0
 
 
 def _check_count(file: str, stated: float, n_rows: int) -> None:
@@ -109,8 +132,8 @@ def _hierarchy(lines: _Lines) -> Iterator[tuple[str, str]]:
     """Yield name and unit of every channel, up to the line ``MOTION``."""
     joint, depth = "", 0
     for words in lines:
-        match words:
-            case ["HIERARCHY"] | ["End", "Site"]:
+        match [words[0].upper(), *words[1:]]:
+            case ["HIERARCHY"] | ["END", *_]:
                 pass
             case ["OFFSET", *offset] if len(offset) == 3:
                 pass
@@ -120,10 +143,11 @@ def _hierarchy(lines: _Lines) -> Iterator[tuple[str, str]]:
                 depth += 1
             case ["}"] if depth:
                 depth -= 1
-            case ["CHANNELS", count, *kinds] if count == str(len(kinds)) and _CHANNELS.keys() >= {
-                *kinds
-            }:
-                yield from ((f"{joint}.{_CHANNELS[kind][0]}", _CHANNELS[kind][1]) for kind in kinds)
+            case ["CHANNELS", count, *kinds] if count == str(len(kinds)) and all(
+                kind.lower() in _CHANNELS for kind in kinds
+            ):
+                found = (_CHANNELS[kind.lower()] for kind in kinds)
+                yield from ((f"{joint}.{suffix}", unit) for suffix, unit in found)
             case ["MOTION"] if not depth:
                 return
             case _:
@@ -131,11 +155,12 @@ def _hierarchy(lines: _Lines) -> Iterator[tuple[str, str]]:
     raise lines.error("'MOTION' below the hierarchy", [])
 
 
-def _positive(lines: _Lines, *label: str) -> float:
-    """Return the number that follows a label on the next line."""
+def _positive(lines: _Lines, label: str) -> float:
+    """Return the number that follows a label on the next line, whatever blanks are between."""
     words = next(iter(lines), [])
+    joined, start = "".join(words).lower().replace(",", "."), label.replace(" ", "").lower()
     with suppress(ValueError):
-        (value,) = numeric(words[len(label) :])
-        if words[: len(label)] == [*label] and isfinite(value) and value > 0:
+        (value,) = numeric([joined.removeprefix(start)])
+        if joined.startswith(start) and isfinite(value) and value > 0:
             return value
-    raise lines.error(f"'{' '.join(label)}' with a positive number", words)
+    raise lines.error(f"'{label}' with a positive number", words)

@@ -24,7 +24,7 @@ from mocapbench.datasets.formats.tables.sheet import Sheet
 from mocapbench.datasets.formats.tables.table_format import TableFormat
 from mocapbench.datasets.formats.text.cells import CellSplitter, Separated
 from mocapbench.datasets.formats.text.lines import read_lines
-from mocapbench.datasets.formats.text.rows import TextTable
+from mocapbench.datasets.formats.text.rows import SpacedTable, TextTable
 from mocapbench.datasets.recording import Frames
 
 __all__ = ["TRCFormat"]
@@ -68,20 +68,11 @@ class TRCFormat(TableFormat):
         return Sheet(table, (), above, columns, numbers, *plan_wide(n_frames))
 
 
-class _SpacedTable(TextTable):
-    """Rows among which lines may be blank."""
-
-    @property
-    def rows(self) -> Sequence[int]:
-        """Indices of the lines that are rows."""
-        return [k for k in super().rows if self.lines[k].strip()]
-
-
 def _parse(path: Path) -> tuple[TRCHead, Sequence[str], TextTable]:
     """Return the head of a file, the names of its markers, and its rows."""
     lines = read_lines(path)
     head = parse_head(path.name, lines)
-    table = _SpacedTable(path.name, lines, head.start, head.cells, LEADING, LEADING)
+    table = SpacedTable(path.name, lines, head.start, head.cells, LEADING, LEADING)
     widest = max((_n_used(head.cells.split(lines[k])) for k in table.rows), default=LEADING)
     markers = head.markers(path.name, max(widest - LEADING, 0))
     width, decimal = LEADING + 3 * len(markers), _decimal_mark(head.cells, table)
@@ -94,7 +85,7 @@ def _label_columns(markers: Sequence[str], unit: str) -> list[Label]:
 
 
 def _read_numbers(table: TextTable) -> dict[int, Frames]:
-    """Return the columns of numbers; those of frames only if they count, as little depends on it."""
+    """Return the columns of numbers; those of frames only if they count."""
     values = table.numbers(range(LEADING - 1, table.width))
     numbers = dict(enumerate(values.T, start=LEADING - 1))
     with suppress(FormatError):

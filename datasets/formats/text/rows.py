@@ -19,7 +19,7 @@ from mocapbench.datasets.formats.text.numbers import (
 )
 from mocapbench.datasets.recording import FrameByChannel, Mask
 
-__all__ = ["TextTable"]
+__all__ = ["SpacedTable", "TextTable"]
 
 
 @dataclass(frozen=True)
@@ -120,3 +120,12 @@ class TextTable:
 
     def _is_wrong(self, cell: str) -> bool:
         return not (is_missing(cell) or is_number(cell, self.decimal))
+
+
+class SpacedTable(TextTable):
+    """Rows among which lines may be blank."""
+
+    @property
+    def rows(self) -> Sequence[int]:
+        """Indices of the lines that are rows."""
+        return [k for k in super().rows if self.lines[k].strip()]

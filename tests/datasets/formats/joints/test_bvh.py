@@ -1,5 +1,7 @@
 """BVH files: any channels, NaN, rotations that wrap, and what is wrong with some."""
 
+import re
+
 import numpy as np
 import pytest
 from format_files import walk, with_gap, write_bvh
@@ -71,6 +73,40 @@ def test_a_gap_that_the_user_names_is_replaced(tmp_path):
     BVH.write(tmp_path / "out.bvh", filled, tmp_path / "walk.bvh", replaced)
     before, after = ((tmp_path / name).read_text().split() for name in ("walk.bvh", "out.bvh"))
     assert sum(one != two for one, two in zip(before, after, strict=True)) == 30
+
+
+HABITS = {
+    "upper case": lambda text: text.replace("position", "Position").replace("End Site", "END SITE"),
+    "lower case": lambda text: text.replace("Frame Time", "frame time").replace("Xrot", "xrot"),
+    "named ends": lambda text: text.replace("End Site", "End Site Toe"),
+    "braces behind names": lambda text: re.sub(r"\n\t*\{", " {", text),
+    "no blank before a number": lambda text: text.replace(":\t4", ":4").replace("e: 0", "e:0"),
+    "blanks before colons": lambda text: text.replace("s:", "s :").replace("e:", "e :"),
+    "blank lines": lambda text: text.replace("\n", "\n\n"),
+    "decimal commas": lambda text: re.sub(r"(?<=\d)\.", ",", text),
+    "milliseconds": lambda text: text.replace("0.0333333", "33.3333"),
+}
+
+
+@pytest.mark.filterwarnings("ignore:.* is taken for milliseconds")
+@pytest.mark.parametrize("habit", HABITS)
+def test_what_programs_and_hands_write_is_read_alike(read, tmp_path, habit):
+    plain, text = read(SMALL), HABITS[habit](SMALL)
+    assert text != SMALL
+    odd = read(text)
+    assert (odd.channels, odd.units) == (plain.channels, plain.units)
+    np.testing.assert_array_equal(odd.values, plain.values)
+    np.testing.assert_allclose(odd.times, plain.times)
+    filled = odd.with_values(np.where(odd.visible, odd.values, -1.5))
+    BVH.write(tmp_path / "out.bvh", filled, like=tmp_path / "walk.bvh")
+    mark = "-1,5" if "commas" in habit else "-1.5"
+    expected = re.sub("nan", mark, text, flags=re.IGNORECASE)
+    assert (tmp_path / "out.bvh").read_text() == expected
+
+
+def test_a_frame_of_milliseconds_is_said(read):
+    with pytest.warns(UserWarning, match="'Frame Time:' is 33.3333, so it is taken for millisec"):
+        read(HABITS["milliseconds"](SMALL))
 
 
 WRONG = {
