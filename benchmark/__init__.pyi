@@ -32,14 +32,14 @@ from .inspection.state import RunState, run_state
 from .merging.merge import merge
 from .missing_values import choose_missing_rule
 from .plugins import load_plugin, load_plugins
-from .problems.base import InvalidPredictionError, Problem, Solution
+from .problems.base import InvalidPredictionError, Problem
 from .problems.body import Body, JointAngles, JointPositions
 from .problems.cluster import ClusterProblem, Clusters
-from .problems.impute import FilledRecordings, ImputeProblem
+from .problems.impute import ImputeProblem
 from .problems.internals import Internals
 from .problems.masks import hide_all_but, hide_frames, hide_runs
-from .problems.recover import Covariances, RecoverProblem
-from .problems.synthesise import Samples, SynthesiseProblem
+from .problems.recover import RecoverProblem
+from .problems.synthesise import SynthesiseProblem
 from .problems.unit import Unit
 from .registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
 from .results.bundle import bundle
@@ -81,11 +81,9 @@ __all__ = [
     "Case",
     "ClusterProblem",
     "Clusters",
-    "Covariances",
     "DataRequest",
     "Entrant",
     "ExitCode",
-    "FilledRecordings",
     "ImputeProblem",
     "Internals",
     "InvalidPredictionError",
@@ -99,9 +97,7 @@ __all__ = [
     "Request",
     "RunDirectory",
     "RunState",
-    "Samples",
     "Seeds",
-    "Solution",
     "Solved",
     "Status",
     "SynthesiseProblem",

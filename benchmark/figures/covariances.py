@@ -36,9 +36,7 @@ def draw_covariances(solved: Solved[RecoverProblem, Covariances], /) -> Sequence
 def _picture(solved: Solved[RecoverProblem, Covariances], layer: str) -> HeatMaps:
     problem = solved.problem
     estimates = {
-        label: solution.by_layer[layer]
-        for label, solution in solved.solutions.items()
-        if layer in solution.by_layer
+        label: solution[layer] for label, solution in solved.solutions.items() if layer in solution
     }
     channels, n_points = problem.train[0].channels, len(problem.times[::EVERY])
     return HeatMaps(

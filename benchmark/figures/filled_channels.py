@@ -7,14 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.benchmark.problems.impute import ImputeProblem, Predictions
 from mocapbench.reports import Axes, Curve, Illustration
 
 __all__ = ["draw_filled_channels"]
 
 
 def draw_filled_channels(
-    solved: Solved[ImputeProblem, FilledRecordings], /, channels: tuple[str, ...]
+    solved: Solved[ImputeProblem, Predictions], /, channels: tuple[str, ...]
 ) -> Sequence[Illustration]:
     """Return channels of the first recording, by the papers' models and the best of the others.
 
@@ -27,7 +27,7 @@ def draw_filled_channels(
     """
     recording, truth = solved.problem.given[0], solved.problem.truth[0]
     filled = {
-        label: np.where(recording.visible, np.nan, solved.solutions[label].predictions[0].mean)
+        label: np.where(recording.visible, np.nan, solved.solutions[label][0].mean)
         for label in _of_interest(solved)
     }
     caption = (
@@ -45,11 +45,11 @@ def draw_filled_channels(
     return (Illustration(solved.task, "Filled channels", caption, tuple(panels)),)
 
 
-def _of_interest(solved: Solved[ImputeProblem, FilledRecordings]) -> list[str]:
+def _of_interest(solved: Solved[ImputeProblem, Predictions]) -> list[str]:
     """Return the labels that the paper has too, and the best of the others."""
     hidden, truth = ~solved.problem.given[0].visible, solved.problem.truth[0]
     errors = {
-        label: float(((solution.predictions[0].mean - truth)[hidden] ** 2).mean())
+        label: float(((solution[0].mean - truth)[hidden] ** 2).mean())
         for label, solution in solved.solutions.items()
     }
     papers = [label for label in errors if label in solved.papers]

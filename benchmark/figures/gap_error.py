@@ -8,14 +8,14 @@ import numpy as np
 from numpy.linalg import norm
 
 from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.benchmark.problems.impute import ImputeProblem, Predictions
 from mocapbench.reports import Axes, Curve, Illustration
 
 __all__ = ["draw_gap_error"]
 
 
 def draw_gap_error(
-    solved: Solved[ImputeProblem, FilledRecordings], /, n_best: int = 5
+    solved: Solved[ImputeProblem, Predictions], /, n_best: int = 5
 ) -> Sequence[Illustration]:
     """Return the norm of the error at every hidden frame, of the entrants with the least mean.
 
@@ -32,7 +32,7 @@ def draw_gap_error(
     if not hidden.any():
         return ()
     errors = {
-        label: np.asarray(norm((solution.predictions[0].mean - truth)[hidden], axis=1))
+        label: np.asarray(norm((solution[0].mean - truth)[hidden], axis=1))
         for label, solution in solved.solutions.items()
     }
     best = sorted(errors, key=lambda label: float(errors[label].mean()))[:n_best]

@@ -13,7 +13,7 @@ from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.figures.stick_figures import strip
 from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number, with_prefix
-from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.benchmark.problems.impute import ImputeProblem, Predictions
 from mocapbench.benchmark.problems.internals import Internals
 from mocapbench.datasets import Recording
 from mocapbench.reports import Illustration, Picture, Space
@@ -24,7 +24,7 @@ TRAINING, MEAN, SAMPLE = "training", "mean prediction", "fair sample"
 
 
 def draw_latent_spaces(
-    solved: Solved[ImputeProblem, FilledRecordings], /, labels: tuple[str, ...]
+    solved: Solved[ImputeProblem, Predictions], /, labels: tuple[str, ...]
 ) -> Sequence[Picture]:
     """Return the latent space of each entrant named, then motions along walks through them.
 
@@ -77,7 +77,7 @@ def _paths(space: Arrays, walks: Arrays | None) -> Iterator[tuple[str, Array]]:
 
 
 def _walks(
-    solved: Solved[ImputeProblem, FilledRecordings], internals: Mapping[str, Internals]
+    solved: Solved[ImputeProblem, Predictions], internals: Mapping[str, Internals]
 ) -> Sequence[Illustration]:
     """Return stick figures of the mean prediction and of a fair sample of each entrant."""
     body, about = solved.problem.body, solved.problem.train[0]

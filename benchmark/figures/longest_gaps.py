@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.benchmark.problems.impute import ImputeProblem, Predictions
 from mocapbench.datasets import FrameByChannel, Mask, Recording
 from mocapbench.reports import Axes, Curve, Illustration
 
@@ -20,7 +20,7 @@ _MOST_FRAMES = 600
 
 
 def draw_longest_gaps(
-    solved: Solved[ImputeProblem, FilledRecordings], /, n_channels: int = 3, n_best: int = 3
+    solved: Solved[ImputeProblem, Predictions], /, n_channels: int = 3, n_best: int = 3
 ) -> Sequence[Illustration]:
     """Return the longest gap of some channels, and as much of the recording before and after it.
 
@@ -36,7 +36,7 @@ def draw_longest_gaps(
     """
     recording, truth = solved.problem.given[0], solved.problem.truth[0]
     hidden = ~recording.visible & np.isfinite(truth)
-    means = {label: solution.predictions[0].mean for label, solution in solved.solutions.items()}
+    means = {label: solution[0].mean for label, solution in solved.solutions.items()}
     errors = {label: float(((m - truth)[hidden] ** 2).mean()) for label, m in means.items()}
     best = sorted(errors, key=errors.__getitem__)[:n_best]
     shown = {"truth": truth, **{b: np.where(hidden, means[b], np.nan) for b in best}}

@@ -6,14 +6,14 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
-from mocapbench.benchmark.problems.base import Problem, Solution
+from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.problems.internals import Internals
 from mocapbench.datasets import Archive
 
 __all__ = ["Solved"]
 
 P = TypeVar("P", bound=Problem)  # type: ignore[type-arg]
-A = TypeVar("A", bound=Solution)
+A = TypeVar("A")
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,8 +25,8 @@ class Solved(Generic[P, A]):
     task : str
         The task's name.
     problem : Problem
-    solutions : mapping of str to Solution
-        By label, of the type that belongs to the problem.
+    solutions : mapping of str to solution
+        By label, as `Problem.solve` returns them.
     internals : mapping of str to Internals
         Fitted quantities, by label.
     papers : collection of str

@@ -117,9 +117,7 @@ def _predict(build: Callable[[], Model], problem: GapProblem, method: str) -> Pr
     imputing = pose_imputing(seen)
     fitted = build()
     imputing.fit(fitted)
-    (prediction,) = imputing.check_predictions(
-        getattr(fitted, method)(imputing.given), method
-    ).predictions
+    (prediction,) = imputing.check_predictions(getattr(fitted, method)(imputing.given), method)
     is_seen = np.isin(problem.given.channels, seen.given.channels)
 
     def spread(values: FrameByChannel) -> FrameByChannel:

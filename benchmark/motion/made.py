@@ -9,14 +9,15 @@ from typing import Any
 
 import numpy as np
 
+from mocapbench.baselines import SampleByFrameByChannel
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
 from mocapbench.benchmark.figures.motions.sampled import draw_sampled_motion
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.problems.body import JointAngles
-from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
-from mocapbench.benchmark.problems.synthesise import Samples, SynthesiseProblem
+from mocapbench.benchmark.problems.impute import ImputeProblem, Predictions
+from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.datasets import Recording, Skeleton
 from mocapbench.reports import Motions
@@ -60,15 +61,15 @@ def _make_motion(problem: Problem[Any], solution: Any) -> tuple[Recording, Calla
 
 @_make_motion.register
 def _fill_recording(
-    problem: ImputeProblem, solution: FilledRecordings
+    problem: ImputeProblem, solution: Predictions
 ) -> tuple[Recording, Callable[..., Any]]:
-    given, mean = problem.given[0], solution.predictions[0].mean
+    given, mean = problem.given[0], solution[0].mean
     return given.with_values(np.where(given.visible, given.values, mean)), draw_filled_motion
 
 
 @_make_motion.register
 def _sample_motion(
-    problem: SynthesiseProblem, solution: Samples
+    problem: SynthesiseProblem, solution: SampleByFrameByChannel
 ) -> tuple[Recording, Callable[..., Any]]:
-    sample = replace(problem.train[0], times=problem.times, values=solution.values[0])
+    sample = replace(problem.train[0], times=problem.times, values=solution[0])
     return sample, draw_sampled_motion

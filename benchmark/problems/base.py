@@ -1,15 +1,15 @@
 """Problems: what a model may see, and apart from it what it may not.
 
 A problem asks a model for its solution (`Problem.solve`) and compares it with the truth
-(`Problem.outcome`), so that no other module needs to know of which kind it is. Each kind of
-problem has a type of `Solution`, which turns into plain arrays and back for the store.
+(`Problem.outcome`), so that no other module needs to know of which kind it is. It also turns
+solutions into plain arrays for the store, and back.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar
+from typing import Any, Generic, TypeVar
 
 from mocapbench.baselines import Model
 from mocapbench.baselines.declarations.needs import list_given
@@ -17,25 +17,15 @@ from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.datasets import Recording, ToyProcess
 from mocapbench.metrics import Clustering, Imputation, Recovery, Synthesis
 
-__all__ = ["InvalidPredictionError", "Problem", "Solution"]
+__all__ = ["InvalidPredictionError", "Problem"]
 
 
 class InvalidPredictionError(ValueError):
     """A model returned the wrong shape, a NaN, or a variance that is not positive."""
 
 
-class Solution(Protocol):
-    """A model's solution to a problem, of the type that belongs to the kind of problem."""
-
-    def to_arrays(self) -> Arrays:
-        """Return the solution as arrays by name."""
-
-    @classmethod
-    def from_arrays(cls, arrays: Arrays) -> Self:
-        """Return the solution that `to_arrays` turned into ``arrays``; other names are ignored."""
-
-
-A = TypeVar("A", bound=Solution)
+A = TypeVar("A")
+"""The type of a solution."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +49,6 @@ class Problem(ABC, Generic[A]):
     control: ToyProcess | None = field(default=None, kw_only=True)
     parent: Recording | None = field(default=None, kw_only=True)
 
-    solution_type: ClassVar[type[Solution]]
-
     def fit(self, model: Any) -> Model:
         """Fit ``model`` to what it may see, and give it what it needs besides."""
         fitted: Model = model.fit(self.train, **list_given(model.needs, self))
@@ -79,3 +67,11 @@ class Problem(ABC, Generic[A]):
     @abstractmethod
     def outcome(self, solution: A) -> Imputation | Synthesis | Clustering | Recovery:
         """Compare a solution with the truth."""
+
+    @abstractmethod
+    def to_arrays(self, solution: A) -> Arrays:
+        """Return a solution as arrays by name."""
+
+    @abstractmethod
+    def from_arrays(self, arrays: Arrays) -> A:
+        """Return the solution that `to_arrays` turned into ``arrays``; other names are ignored."""

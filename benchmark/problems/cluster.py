@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,17 +37,6 @@ class Clusters:
     alignment: Arrays | None = None
     blend: Arrays | None = None
 
-    def to_arrays(self) -> Arrays:
-        """Return ``labels``, and the arrays of the alignment and the blend."""
-        return {"labels": self.labels, **(self.alignment or {}), **(self.blend or {})}
-
-    @classmethod
-    def from_arrays(cls, arrays: Arrays) -> Self:
-        """Return the solution that `to_arrays` turned into ``arrays``."""
-        alignment = select_arrays(arrays, "cycle_length", "path-")
-        blend = select_arrays(arrays, "blend", "blended")
-        return cls(arrays["labels"], alignment or None, blend or None)
-
 
 @dataclass(frozen=True, eq=False)
 class ClusterProblem(Problem[Clusters]):
@@ -66,8 +55,6 @@ class ClusterProblem(Problem[Clusters]):
     truth: tuple[str, ...]
     skeleton: Skeleton
 
-    solution_type = Clusters
-
     def solve(self, model: Any, random_state: int) -> Clusters:
         """Return the clusters, and the alignment and the blend of a model that has them."""
         del random_state  # fit has done everything
@@ -80,6 +67,20 @@ class ClusterProblem(Problem[Clusters]):
     def outcome(self, solution: Clusters) -> Clustering:
         """Set the clusters beside the classes."""
         return Clustering(np.array(self.truth), solution.labels)
+
+    def to_arrays(self, solution: Clusters) -> Arrays:
+        """Return ``labels``, and the arrays of the alignment and the blend."""
+        return {
+            "labels": solution.labels,
+            **(solution.alignment or {}),
+            **(solution.blend or {}),
+        }
+
+    def from_arrays(self, arrays: Arrays) -> Clusters:
+        """Return the solution that `to_arrays` turned into ``arrays``."""
+        alignment = select_arrays(arrays, "cycle_length", "path-")
+        blend = select_arrays(arrays, "blend", "blended")
+        return Clusters(arrays["labels"], alignment or None, blend or None)
 
     def _labels(self, model: Clusterer) -> NDArray[np.intp]:
         labels = np.asarray(model.labels_)

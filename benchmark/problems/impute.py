@@ -20,47 +20,14 @@ from mocapbench.datasets import FrameByChannel, Mask, Recording
 from mocapbench.metrics import Imputation, ImputedPoses
 from mocapbench.metrics.entries import mean_over, variance_over
 
-__all__ = ["FilledRecordings", "ImputeProblem"]
+__all__ = ["ImputeProblem", "Predictions"]
+
+Predictions = tuple[Prediction, ...]
+"""One for each recording to fill, in order; all have a variance, or none has."""
 
 
 @dataclass(frozen=True, eq=False)
-class FilledRecordings:
-    """The solution to an `ImputeProblem`.
-
-    Parameters
-    ----------
-    predictions : tuple of Prediction
-        One per recording to fill, in order; all have a variance, or none has.
-    """
-
-    predictions: tuple[Prediction, ...]
-
-    @property
-    def mean(self) -> FrameByChannel:
-        """The means of all recordings, one below the other."""
-        return np.concatenate([prediction.mean for prediction in self.predictions])
-
-    @property
-    def variance(self) -> FrameByChannel | None:
-        """The variances of all recordings, one below the other, if the model has any."""
-        variances = [p.variance for p in self.predictions if p.variance is not None]
-        return np.concatenate(variances) if variances else None
-
-    def to_arrays(self) -> Arrays:
-        """Return ``mean-i`` and, where there is one, ``variance-i`` of recording i."""
-        means = (prediction.mean for prediction in self.predictions)
-        variances = (p.variance for p in self.predictions if p.variance is not None)
-        return {**with_numbers("mean", means), **with_numbers("variance", variances)}
-
-    @classmethod
-    def from_arrays(cls, arrays: Arrays) -> Self:
-        """Return the solution that `to_arrays` turned into ``arrays``."""
-        means, variances = arrays_by_number("mean", arrays), arrays_by_number("variance", arrays)
-        return cls(tuple(map(Prediction, means, variances or (None,) * len(means))))
-
-
-@dataclass(frozen=True, eq=False)
-class ImputeProblem(Problem[FilledRecordings]):
+class ImputeProblem(Problem[Predictions]):
     """Fill the hidden entries of some recordings.
 
     Parameters
@@ -89,8 +56,6 @@ class ImputeProblem(Problem[FilledRecordings]):
     unit: Unit
     body: Body | None = None
     scales: NDArray[np.float64] | None = None
-
-    solution_type = FilledRecordings
 
     @classmethod
     def of_one(
@@ -123,12 +88,12 @@ class ImputeProblem(Problem[FilledRecordings]):
         unit = Unit.natural(len(recording.channels))
         return cls((*others, *own), (given,), (recording.values,), unit, body)
 
-    def solve(self, model: FrameImputer, random_state: int) -> FilledRecordings:
+    def solve(self, model: FrameImputer, random_state: int) -> Predictions:
         """Return the model's predictions of the recordings given."""
         del random_state  # imputation draws nothing
         return self.check_predictions(model.impute(self.given), "impute")
 
-    def check_predictions(self, predictions: object, method: str) -> FilledRecordings:
+    def check_predictions(self, predictions: object, method: str) -> Predictions:
         """Return what a method of a model returned, checked.
 
         Raises
@@ -141,22 +106,22 @@ class ImputeProblem(Problem[FilledRecordings]):
             raise InvalidPredictionError(
                 f"{method}: expected a list of {len(wanted)} Prediction, got {predictions!r:.200}"
             )
-        solution = FilledRecordings(tuple(map(_check_prediction, self.given, predictions)))
+        solution = tuple(map(_check_prediction, self.given, predictions))
         if len({prediction.variance is None for prediction in predictions}) > 1:
             raise InvalidPredictionError(
                 f"{method}: expected a variance with every Prediction or with none, got both"
             )
         return solution
 
-    def outcome(self, solution: FilledRecordings) -> Imputation:
+    def outcome(self, solution: Predictions) -> Imputation:
         """Put the recordings one below the other, in the problem's unit."""
         visible_mean, visible_variance = self._visible_moments()
-        variance, truth = solution.variance, np.concatenate(self.truth)
-        known = np.isfinite(truth)
+        truth, mean = np.concatenate(self.truth), np.concatenate([p.mean for p in solution])
+        variances, known = _list_variances(solution), np.isfinite(truth)
         return Imputation(
-            truth=self.unit.of(np.where(known, truth, solution.mean)),
-            mean=self.unit.of(solution.mean),
-            variance=None if variance is None else variance / self.unit.scale**2,
+            truth=self.unit.of(np.where(known, truth, mean)),
+            mean=self.unit.of(mean),
+            variance=np.concatenate(variances) / self.unit.scale**2 if variances else None,
             hidden=known & ~np.concatenate([recording.visible for recording in self.given]),
             visible_mean=visible_mean,
             visible_variance=visible_variance,
@@ -165,10 +130,21 @@ class ImputeProblem(Problem[FilledRecordings]):
             place_joints=self._placement(solution),
         )
 
-    def _placement(self, solution: FilledRecordings) -> Callable[[], ImputedPoses] | None:
+    def to_arrays(self, solution: Predictions) -> Arrays:
+        """Return ``mean-i`` and, where there is one, ``variance-i`` of recording i."""
+        means = (prediction.mean for prediction in solution)
+        variances = _list_variances(solution)
+        return {**with_numbers("mean", means), **with_numbers("variance", variances)}
+
+    def from_arrays(self, arrays: Arrays) -> Predictions:
+        """Return the solution that `to_arrays` turned into ``arrays``."""
+        means, variances = arrays_by_number("mean", arrays), arrays_by_number("variance", arrays)
+        return tuple(map(Prediction, means, variances or (None,) * len(means)))
+
+    def _placement(self, solution: Predictions) -> Callable[[], ImputedPoses] | None:
         if self.body is None:
             return None
-        return partial(imputed_poses, self.body, self.given, self.truth, solution.predictions)
+        return partial(imputed_poses, self.body, self.given, self.truth, solution)
 
     def _visible_moments(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return moments over all recordings given to fit and impute, each counted once."""
@@ -177,6 +153,10 @@ class ImputeProblem(Problem[FilledRecordings]):
         seen = np.isfinite(values)
         moments = mean_over(values, seen, axis=0), variance_over(values, seen)
         return np.nan_to_num(moments[0]), np.nan_to_num(moments[1])
+
+
+def _list_variances(solution: Predictions) -> list[FrameByChannel]:
+    return [prediction.variance for prediction in solution if prediction.variance is not None]
 
 
 def _check_prediction(recording: Recording, prediction: Prediction) -> Prediction:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,26 +20,8 @@ LAYERS = ("parent", "child")
 """The layers of a `ToyProcess`, outermost first."""
 
 
-@dataclass(frozen=True, eq=False)
-class Covariances:
-    """The solution to a `RecoverProblem`.
-
-    Parameters
-    ----------
-    by_layer : mapping of str to ndarray of shape (D N, D N)
-        Without noise; ordered by output, then by frame.
-    """
-
-    by_layer: Mapping[str, NDArray[np.float64]]
-
-    def to_arrays(self) -> Arrays:
-        """Return ``covariance-parent``, ``covariance-child`` …, by layer."""
-        return {f"covariance-{layer}": matrix for layer, matrix in self.by_layer.items()}
-
-    @classmethod
-    def from_arrays(cls, arrays: Arrays) -> Self:
-        """Return the solution that `to_arrays` turned into ``arrays``."""
-        return cls(with_prefix("covariance", arrays))
+Covariances = Mapping[str, NDArray[np.float64]]
+"""By layer, (D N, D N) without noise; ordered by output, then by frame."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -60,8 +41,6 @@ class RecoverProblem(Problem[Covariances]):
     process: ToyProcess
     times: Frames
 
-    solution_type = Covariances
-
     def solve(self, model: Layered, random_state: int) -> Covariances:
         """Return the children's covariance and, of a model with two layers, the parent's.
 
@@ -70,14 +49,20 @@ class RecoverProblem(Problem[Covariances]):
         """
         del random_state  # fit has done everything
         paired = zip(reversed(LAYERS), reversed(model.layers), strict=False)
-        return Covariances({layer: self._covariance(model, own) for layer, own in paired})
+        return {layer: self._covariance(model, own) for layer, own in paired}
 
     def outcome(self, solution: Covariances) -> Recovery:
         """Set the covariances beside those of the process."""
-        estimate = {
-            layer: solution.by_layer[layer] for layer in LAYERS if layer in solution.by_layer
-        }
+        estimate = {layer: solution[layer] for layer in LAYERS if layer in solution}
         return Recovery(truth=self.truth, estimate=estimate, noise=self.process.noise)
+
+    def to_arrays(self, solution: Covariances) -> Arrays:
+        """Return ``covariance-parent``, ``covariance-child`` …, by layer."""
+        return {f"covariance-{layer}": matrix for layer, matrix in solution.items()}
+
+    def from_arrays(self, arrays: Arrays) -> Covariances:
+        """Return the solution that `to_arrays` turned into ``arrays``."""
+        return with_prefix("covariance", arrays)
 
     @property
     def truth(self) -> dict[str, NDArray[np.float64]]:

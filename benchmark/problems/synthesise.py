@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Self
 
 import numpy as np
 
@@ -17,32 +16,11 @@ from mocapbench.benchmark.problems.placement import sampled_poses
 from mocapbench.datasets import FrameByChannel, Frames
 from mocapbench.metrics import SampledPoses, Synthesis
 
-__all__ = ["Samples", "SynthesiseProblem"]
+__all__ = ["SynthesiseProblem"]
 
 
 @dataclass(frozen=True, eq=False)
-class Samples:
-    """The solution to a `SynthesiseProblem`.
-
-    Parameters
-    ----------
-    values : ndarray of shape (n, N, D)
-    """
-
-    values: SampleByFrameByChannel
-
-    def to_arrays(self) -> Arrays:
-        """Return ``samples``."""
-        return {"samples": self.values}
-
-    @classmethod
-    def from_arrays(cls, arrays: Arrays) -> Self:
-        """Return the solution that `to_arrays` turned into ``arrays``."""
-        return cls(arrays["samples"])
-
-
-@dataclass(frozen=True, eq=False)
-class SynthesiseProblem(Problem[Samples]):
+class SynthesiseProblem(Problem[SampleByFrameByChannel]):
     """Draw new recordings that resemble the references.
 
     Parameters
@@ -69,10 +47,8 @@ class SynthesiseProblem(Problem[Samples]):
     references: tuple[FrameByChannel, ...]
     body: Body | None = None
 
-    solution_type = Samples
-
-    def solve(self, model: Synthesiser, random_state: int) -> Samples:
-        """Return the model's samples."""
+    def solve(self, model: Synthesiser, random_state: int) -> SampleByFrameByChannel:
+        """Return the model's samples (n, N, D)."""
         samples = np.asarray(model.sample(self.times, self.n_samples, random_state))
         expected = (self.n_samples, *self.references[0].shape)
         if samples.shape != expected or not np.isfinite(samples).all():
@@ -80,14 +56,22 @@ class SynthesiseProblem(Problem[Samples]):
                 f"sample: expected finite samples of shape {expected}, got shape {samples.shape} "
                 f"with {int((~np.isfinite(samples)).sum())} entries that are NaN or infinite"
             )
-        return Samples(samples)
+        return samples
 
-    def outcome(self, solution: Samples) -> Synthesis:
+    def outcome(self, solution: SampleByFrameByChannel) -> Synthesis:
         """Set the samples beside the references."""
-        return Synthesis(solution.values, np.stack(self.references), self._placement(solution))
+        return Synthesis(solution, np.stack(self.references), self._placement(solution))
 
-    def _placement(self, solution: Samples) -> Callable[[], SampledPoses] | None:
+    def to_arrays(self, solution: SampleByFrameByChannel) -> Arrays:
+        """Return ``samples``."""
+        return {"samples": solution}
+
+    def from_arrays(self, arrays: Arrays) -> SampleByFrameByChannel:
+        """Return the solution that `to_arrays` turned into ``arrays``."""
+        return arrays["samples"]
+
+    def _placement(self, solution: SampleByFrameByChannel) -> Callable[[], SampledPoses] | None:
         if self.body is None:
             return None
         like = replace(self.train[0], times=self.times, values=self.references[0])
-        return partial(sampled_poses, self.body, like, tuple(solution.values), self.references)
+        return partial(sampled_poses, self.body, like, tuple(solution), self.references)

@@ -54,7 +54,7 @@ def solved_problem(
     return Solved(
         task.name,
         problem,
-        {label: problem.solution_type.from_arrays(of_label) for label, of_label in arrays.items()},
+        {label: problem.from_arrays(of_label) for label, of_label in arrays.items()},
         {label: Internals.from_arrays(of_label) for label, of_label in arrays.items()},
         task.page.published_models,
         ranking=_ranking(task, records),

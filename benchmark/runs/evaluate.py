@@ -146,7 +146,7 @@ def _score_by_each(
     ValueError
         If no metric is defined for the solution.
     """
-    outcome = problem.outcome(problem.solution_type.from_arrays(fit.arrays))
+    outcome = problem.outcome(problem.from_arrays(fit.arrays))
     scores: dict[str, Score] = {}
     errors: list[Exception] = []
     for name in job.metrics:

@@ -8,7 +8,7 @@ import numpy as np
 
 from mocapbench.baselines import Prediction
 from mocapbench.benchmark.problems.body import Body, JointAngles
-from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.task_files.hiding import Hiding, HidingPlace
 from mocapbench.benchmark.tasks.seeds import Seeds
@@ -67,5 +67,5 @@ def defined_metrics(names: Iterable[str], problem: ImputeProblem) -> tuple[str, 
     """Return the metrics that are defined for the true values, had a model found these."""
     (truth,) = problem.truth
     known = Prediction(np.nan_to_num(truth), np.ones(truth.shape))
-    outcome = problem.outcome(FilledRecordings((known,)))
+    outcome = problem.outcome((known,))
     return tuple(name for name in names if METRICS.get(name).applies(outcome))

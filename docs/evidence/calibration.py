@@ -45,7 +45,6 @@ from mocapbench.baselines import (
     PoseKriging,
 )
 from mocapbench.benchmark import ImputeProblem
-from mocapbench.benchmark.problems.impute import FilledRecordings
 from mocapbench.benchmark.tasks.missing_frames import (
     FIRST_HIDDEN,
     GROUPS,
@@ -129,7 +128,7 @@ def report(name: str, model: FrameImputer, problems: Sequence[ImputeProblem]) ->
     """Print mean error, coverage, MSLL and CRPS of a fitted model."""
     began, rows = time.process_time(), []
     for problem in problems:
-        outcome = problem.outcome(FilledRecordings(tuple(model.impute(problem.given))))
+        outcome = problem.outcome(tuple(model.impute(problem.given)))
         metrics = (rms_per_frame, coverage_95, msll, crps)
         rows.append([m(outcome).value if m.applies(outcome) else np.nan for m in metrics])
     error, coverage, loss, score = np.mean(rows, axis=0)
@@ -197,7 +196,7 @@ def compare_models(
 def compare_variances(model: Calibrated, problem: ImputeProblem) -> list[float]:
     """Return the coverage, MSLL and CRPS of the uncalibrated and of the calibrated variances."""
     answers = (model.model_.impute(problem.given), model.impute(problem.given))
-    outcomes = [problem.outcome(FilledRecordings(tuple(answer))) for answer in answers]
+    outcomes = [problem.outcome(tuple(answer)) for answer in answers]
     return [m(outcome).value for m in (coverage_95, msll, crps) for outcome in outcomes]
 
 

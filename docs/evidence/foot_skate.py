@@ -7,8 +7,6 @@ import numpy as np
 
 from mocapbench.baselines import Prediction
 from mocapbench.benchmark import ImputeProblem, JointAngles, SynthesiseProblem
-from mocapbench.benchmark.problems.impute import FilledRecordings
-from mocapbench.benchmark.problems.synthesise import Samples
 from mocapbench.datasets import Archive, open_archive
 from mocapbench.metrics import foot_skate, sample_foot_skate
 
@@ -30,10 +28,10 @@ def scores(archive: Archive, uri: str) -> tuple[float, float]:
     hidden = np.full(recording.values.shape, True)
     filled = ImputeProblem.of_one(recording, hidden, body=body)
     sampled = SynthesiseProblem((recording,), recording.times, 1, (recording.values,), body=body)
-    answer = FilledRecordings((Prediction(recording.values),))
+    answer = (Prediction(recording.values),)
     return (
         foot_skate(filled.outcome(answer)).value,
-        sample_foot_skate(sampled.outcome(Samples(recording.values[None]))).value,
+        sample_foot_skate(sampled.outcome(recording.values[None])).value,
     )
 
 

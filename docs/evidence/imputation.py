@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from mocapbench import benchmark as bench
 from mocapbench.baselines import ChannelKriging, FrameImputer, PoseKriging
 from mocapbench.benchmark import METRICS, TASKS, Address, ImputeProblem, Seeds
-from mocapbench.benchmark.problems.impute import FilledRecordings
 from mocapbench.benchmark.tasks.missing_frames import (
     FIRST_HIDDEN,
     GROUPS,
@@ -102,7 +101,7 @@ def walkers() -> None:
 
 
 def _outcome(problem: ImputeProblem, model: FrameImputer) -> Imputation:
-    return problem.outcome(FilledRecordings(tuple(model.impute(problem.given))))
+    return problem.outcome(tuple(model.impute(problem.given)))
 
 
 def tasks() -> None:

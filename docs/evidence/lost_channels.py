@@ -23,7 +23,6 @@ import numpy as np
 from mocapbench import benchmark as bench
 from mocapbench.baselines import FAM, LDS, BestOf, Calibrated, ChannelKriging, FrameImputer, LowRank
 from mocapbench.benchmark import ImputeProblem
-from mocapbench.benchmark.problems.impute import FilledRecordings
 from mocapbench.datasets import FrameByChannel, Recording
 from mocapbench.metrics import coverage_95, crps, msll
 
@@ -79,7 +78,7 @@ def problems(groups: Sequence[str]) -> Iterator[ImputeProblem]:
 def compare_variances(model: Calibrated, problem: ImputeProblem) -> list[float]:
     """Return coverage, MSLL and CRPS of the uncalibrated and of the calibrated variances."""
     answers = (model.model_.impute(problem.given), model.impute(problem.given))
-    outcomes = [problem.outcome(FilledRecordings(tuple(answer))) for answer in answers]
+    outcomes = [problem.outcome(tuple(answer)) for answer in answers]
     return [m(outcome).value for m in (coverage_95, msll, crps) for outcome in outcomes]
 
 

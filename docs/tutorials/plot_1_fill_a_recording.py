@@ -126,7 +126,7 @@ figure, axes = plt.subplots(
     layout="constrained",
 )
 for axis, (name, solution) in zip(axes, solutions.items(), strict=True):
-    prediction = solution.predictions[PERSON]
+    prediction = solution[PERSON]
     mean = prediction.mean[:, KNEE]
     if prediction.variance is not None:
         sd = np.sqrt(prediction.variance[:, KNEE])
@@ -185,7 +185,7 @@ print(f"{'':16}{'error':>9}{'mean sd':>11}{'in the 95 % interval':>24}")
 for name, solution in solutions.items():
     outcome = problem.outcome(solution)
     line = f"{name:16}{np.sqrt(mse(outcome).value):7.1f} °"
-    if solution.variance is not None:
+    if outcome.variance is not None:
         covered[name] = [
             metric(outcome).value for metric in COVERAGES.values()
         ]

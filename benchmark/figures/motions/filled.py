@@ -9,12 +9,12 @@ import numpy as np
 from mocapbench.benchmark.figures.motions.placing import PlacesJoints, place_joints
 from mocapbench.benchmark.figures.motions.played import ShownWindow, build_player, choose_entrants
 from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.benchmark.problems.impute import ImputeProblem, Predictions
 from mocapbench.reports import Motions
 
 __all__ = ["body_of_problem", "draw_filled_motion"]
 
-FilledProblem = Solved[ImputeProblem, FilledRecordings]
+FilledProblem = Solved[ImputeProblem, Predictions]
 
 
 def body_of_problem(solved: FilledProblem) -> PlacesJoints | None:
@@ -49,7 +49,7 @@ def draw_filled_motion(
     if body is None or not np.isfinite(truth).all():
         return ()
     entrants = choose_entrants(solved, n_most)
-    means = [solved.solutions[label].predictions[0].mean for label in entrants[0]]
+    means = [solved.solutions[label][0].mean for label in entrants[0]]
     filled = [np.where(shown.visible, truth, mean[window.part]) for mean in means]
     true, *made = place_joints(body, shown, [truth, *filled])
     pairs = [("truth", true, positions) for positions in made]

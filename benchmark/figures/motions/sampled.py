@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.linalg import norm
 
+from mocapbench.baselines import SampleByFrameByChannel
 from mocapbench.benchmark.figures.motions.placing import on_the_spot, place_joints
 from mocapbench.benchmark.figures.motions.played import (
     Pair,
@@ -16,7 +17,7 @@ from mocapbench.benchmark.figures.motions.played import (
     choose_entrants,
 )
 from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.benchmark.problems.synthesise import Samples, SynthesiseProblem
+from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
 from mocapbench.datasets import FrameByJointBy3
 from mocapbench.reports import Motions
 
@@ -24,7 +25,7 @@ __all__ = ["draw_sampled_motion"]
 
 
 def draw_sampled_motion(
-    solved: Solved[SynthesiseProblem, Samples], /, n_most: int = 8
+    solved: Solved[SynthesiseProblem, SampleByFrameByChannel], /, n_most: int = 8
 ) -> Sequence[Motions]:
     """Return the first sample of each entrant, and the reference that it resembles best.
 
@@ -41,7 +42,7 @@ def draw_sampled_motion(
         return ()
     entrants = choose_entrants(solved, n_most)
     window = ShownWindow(problem.times, np.zeros(len(problem.times), dtype=bool))
-    samples = [solved.solutions[label].values[0] for label in entrants[0]]
+    samples = [solved.solutions[label][0] for label in entrants[0]]
     values = [motion[window.part] for motion in (*problem.references, *samples)]
     like = replace(problem.train[0], times=problem.times[window.part], values=values[0])
     motions = [on_the_spot(motion) for motion in place_joints(body, like, values)]

@@ -8,7 +8,7 @@ import numpy as np
 
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.body import JointAngles
-from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.benchmark.problems.impute import ImputeProblem, Predictions
 from mocapbench.datasets import (
     FrameByJointBy3,
     Recording,
@@ -42,7 +42,7 @@ def _angles_of(recording: Recording) -> Recording:
     return replace(recording, values=columns, channels=channels, units=("",) * len(channels))
 
 
-def scaled_angles(solved: Solved[ImputeProblem, FilledRecordings]) -> ScaledAngles | None:
+def scaled_angles(solved: Solved[ImputeProblem, Predictions]) -> ScaledAngles | None:
     """Return the body of the recording to fill, None where no skeleton is at hand."""
     if solved.archive is None:
         return None

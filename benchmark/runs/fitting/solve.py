@@ -107,7 +107,7 @@ def solve(problem: Problem[Any], fitted: Fitted, random_state: int) -> Fit:
         getattr(model, f"{name}_", None) for name in ("n_iterations", "converged")
     )
     return Fit(
-        {**solution.to_arrays(), **(internals or {})},
+        {**problem.to_arrays(solution), **(internals or {})},
         fit_seconds=costs.seconds,
         predict_seconds=seconds,
         peak_memory_mb=max(costs.peak_memory_mb, _peak_memory_mb()),

@@ -1,13 +1,13 @@
 import numpy as np
 
-from mocapbench.benchmark import Covariances, Solved, draw_covariances
+from mocapbench.benchmark import Solved, draw_covariances
 
 
 def test_covariances_are_shown_beside_the_true_ones_layer_by_layer(posed):
     problem = posed("covariance-recovery", "correlated outputs")
     solutions = {
-        "mohgp": Covariances({layer: 2.0 * truth for layer, truth in problem.truth.items()}),
-        "moa": Covariances({"child": problem.truth["child"]}),
+        "mohgp": {layer: 2.0 * truth for layer, truth in problem.truth.items()},
+        "moa": {"child": problem.truth["child"]},
     }
     solved = Solved("covariance-recovery", problem, solutions)
     child, parent = draw_covariances(solved)

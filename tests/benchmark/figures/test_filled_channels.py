@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import Prediction
-from mocapbench.benchmark import FilledRecordings, ImputeProblem, Solved, draw_filled_channels
+from mocapbench.benchmark import ImputeProblem, Solved, draw_filled_channels
 from mocapbench.datasets import Recording
 
 CHANNELS = ("rhumerus.rx", "thorax.ry")
@@ -20,7 +20,7 @@ def _solved(problem, errors):
     """Return the problem, solved with a constant error at hidden entries, by label."""
     shown, truth = problem.given[0].visible, problem.truth[0]
     solutions = {
-        label: FilledRecordings((Prediction(np.where(shown, truth, truth + error)),))
+        label: (Prediction(np.where(shown, truth, truth + error)),)
         for label, error in errors.items()
     }
     return Solved("upper-body-missing", problem, solutions, papers={"nn": "NN", "absent": "HLM"})

@@ -3,7 +3,6 @@ import pytest
 
 from mocapbench.baselines import Prediction
 from mocapbench.benchmark import (
-    FilledRecordings,
     ImputeProblem,
     Solved,
     draw_gap_error,
@@ -20,9 +19,7 @@ def _solved(mask):
     """Return the walk with ``mask``, filled by seven entrants with errors of different sizes."""
     problem = ImputeProblem.of_one(WALK, mask)
     solutions = {
-        f"off by {size}": FilledRecordings(
-            (Prediction(WALK.values + size * RNG.uniform(0.9, 1.1, size=(9, 2))),)
-        )
+        f"off by {size}": (Prediction(WALK.values + size * RNG.uniform(0.9, 1.1, size=(9, 2))),)
         for size in (4, 7, 1, 5, 2, 6, 3)
     }
     return Solved("missing-frames", problem, solutions)
@@ -37,7 +34,7 @@ def test_the_error_along_the_gap_is_that_of_hidden_frames(solved):
     (illustration,) = draw_gap_error(solved)
     hidden = np.flatnonzero(~solved.problem.given[0].visible[:, 0])
     for curve in illustration.axes[0].curves:
-        error = solved.solutions[curve.group].predictions[0].mean - solved.problem.truth[0]
+        error = solved.solutions[curve.group][0].mean - solved.problem.truth[0]
         np.testing.assert_array_equal(curve.x, hidden + 1)
         np.testing.assert_allclose(curve.y, np.linalg.norm(error[hidden], axis=1))
 

@@ -66,7 +66,7 @@ def test_styles_are_blended_by_a_model_in_its_calibration(problem):
 def test_one_cluster_leaves_nothing_to_blend(problem):
     solution = _solve(problem, Poses(labels=(1, 1, 1)))
     assert solution.blend is None
-    assert set(solution.to_arrays()) == {"labels"}
+    assert set(problem.to_arrays(solution)) == {"labels"}
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, np.ones((2, 1, 1))])

@@ -54,7 +54,7 @@ def _solve(problem, model):
 
 def test_clusters_are_set_beside_the_classes(problem):
     solution = _solve(problem, Fixed())
-    assert set(solution.to_arrays()) == {"labels"}
+    assert set(problem.to_arrays(solution)) == {"labels"}
     assert solution.alignment is solution.blend is None
     assert purity(problem.outcome(solution)).value == 1.0
     wrong = problem.outcome(_solve(problem, Fixed((0, 1, 1))))
@@ -91,6 +91,7 @@ BLEND = {"blend": MOTIONS, "blended": np.array([0, 2])}
 
 @pytest.mark.parametrize("alignment", [None, ALIGNMENT])
 @pytest.mark.parametrize("blend", [None, BLEND])
-def test_an_answer_survives_the_store(survives, alignment, blend):
+def test_an_answer_survives_the_store(survives, problem, alignment, blend):
     other = {"latent-path-0": np.zeros(3), "trend-mean": np.zeros(3)}
-    assert survives(Clusters(LABELS, alignment, blend), other)
+    solution = Clusters(LABELS, alignment, blend)
+    assert survives(solution, problem.to_arrays, problem.from_arrays, other)

@@ -6,7 +6,6 @@ from hypothesis.extra.numpy import arrays
 
 from mocapbench.baselines import Imputer, Prediction
 from mocapbench.benchmark import (
-    FilledRecordings,
     ImputeProblem,
     InvalidPredictionError,
     Unit,
@@ -50,7 +49,7 @@ def _recording(name, values):
     return Recording(name, np.arange(3.0), values, CHANNELS, ("deg", "deg"))
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def problem():
     given, other = _recording("test", TRUTH).hide(HIDDEN), _recording("other", TRUTH + 1.0)
     return ImputeProblem((given, other), (given,), (TRUTH,), Unit.range_of(TRUTH))
@@ -95,8 +94,8 @@ def test_an_answer_is_a_list_of_one_prediction_per_recording(problem, solution):
 
 def test_all_predictions_have_a_variance_or_none_has(problem):
     both = ImputeProblem(problem.train, problem.given * 2, problem.truth * 2, problem.unit)
-    assert both.solve(Answers([FILLED, FILLED]), 0).variance is None
-    assert both.solve(Answers([UNSURE, UNSURE]), 0).variance.shape == (6, 2)
+    assert both.outcome(both.solve(Answers([FILLED, FILLED]), 0)).variance is None
+    assert both.outcome(both.solve(Answers([UNSURE, UNSURE]), 0)).variance.shape == (6, 2)
     with pytest.raises(InvalidPredictionError, match="a variance with every Prediction or with no"):
         both.solve(Answers([FILLED, UNSURE]), 0)
 
@@ -124,10 +123,11 @@ def test_a_problem_of_one_recording_says_whether_models_learn_from_it(seen):
 
 @settings(max_examples=25)
 @given(st.data(), st.integers(1, 12), st.booleans())
-def test_an_answer_survives_the_store(survives, data, n_recordings, has_variance):
+def test_an_answer_survives_the_store(survives, problem, data, n_recordings, has_variance):
     values = arrays(np.float64, (3, 2), elements=st.floats(width=64))
     predictions = tuple(
         Prediction(data.draw(values), np.abs(data.draw(values)) if has_variance else None)
         for _ in range(n_recordings)
     )
-    assert survives(FilledRecordings(predictions), {"trend-mean": TRUTH})
+    other = {"trend-mean": TRUTH}
+    assert survives(predictions, problem.to_arrays, problem.from_arrays, other)

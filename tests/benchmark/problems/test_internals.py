@@ -56,4 +56,5 @@ OF_ANSWERS = ("mean-0", "path-0", "labels", "samples", "blend", "covariance-chil
 @pytest.mark.parametrize("walks", [None, WALKS])
 def test_they_survive_the_store_beside_any_answer(survives, trend, matrices, space, walks):
     other = dict.fromkeys(OF_ANSWERS, np.zeros(3))
-    assert survives(Internals(trend, matrices, space, walks), other)
+    internals = Internals(trend, matrices, space, walks)
+    assert survives(internals, Internals.to_arrays, Internals.from_arrays, other)

@@ -6,10 +6,8 @@ import pytest
 from mocapbench.baselines import Prediction
 from mocapbench.benchmark import (
     METRICS,
-    FilledRecordings,
     ImputeProblem,
     JointAngles,
-    Samples,
     SynthesiseProblem,
     Unit,
     hide_frames,
@@ -31,7 +29,7 @@ def problem(hidden, body=BODY):
 
 
 def score(name, posed, mean):
-    return METRICS.get(name)(posed.outcome(FilledRecordings((Prediction(mean),)))).value
+    return METRICS.get(name)(posed.outcome((Prediction(mean),))).value
 
 
 @pytest.fixture
@@ -46,7 +44,7 @@ def hidden_in(*channels):
 
 
 def test_whole_frames_hide_all_joints_and_the_root_not_from_itself(gap):
-    poses = gap.outcome(FilledRecordings((Prediction(WALK.values),))).poses
+    poses = gap.outcome((Prediction(WALK.values),)).poses
     assert poses.hidden[GAP].all()
     assert poses.hidden_relative[GAP, 1:].all()
     assert not poses.hidden_relative[:, 0].any()
@@ -70,7 +68,7 @@ def test_a_wrong_step_of_the_root_is_an_error_in_space_alone(gap):
 
 def test_only_what_hangs_on_a_hidden_angle_is_scored():
     posed = problem(hidden_in("lhumerus.rx"))
-    poses = posed.outcome(FilledRecordings((Prediction(WALK.values + 10.0),))).poses
+    poses = posed.outcome((Prediction(WALK.values + 10.0),)).poses
     scored = {JOINTS[index] for index in np.flatnonzero(poses.hidden.any(axis=0))}
     assert scored == {"lhumerus", "lradius", "lwrist", "lhand", "lfingers", "lthumb"}
     np.testing.assert_array_equal(poses.hidden, poses.hidden_relative)
@@ -92,13 +90,13 @@ def test_scores_in_another_unit_leave_positions_in_centimetres():
     )
     mean = WALK.values + 3.0
     assert score("mpjpe", scaled, mean) == score("mpjpe", posed, mean)
-    assert scaled.outcome(FilledRecordings((Prediction(mean),))).units == ("",) * 62
-    assert set(posed.outcome(FilledRecordings((Prediction(mean),))).units) == {"deg", ""}
+    assert scaled.outcome((Prediction(mean),)).units == ("",) * 62
+    assert set(posed.outcome((Prediction(mean),)).units) == {"deg", ""}
 
 
 def test_several_recordings_are_placed_each_by_itself(gap):
     both = ImputeProblem(gap.train, gap.given * 2, gap.truth * 2, gap.unit, gap.body)
-    solutions = FilledRecordings((Prediction(WALK.values), Prediction(WALK.values + 1.0)))
+    solutions = (Prediction(WALK.values), Prediction(WALK.values + 1.0))
     poses = both.outcome(solutions).poses
     assert poses.starts == (0, 50)
     np.testing.assert_array_equal(poses.truth[:50], poses.truth[50:])
@@ -106,9 +104,7 @@ def test_several_recordings_are_placed_each_by_itself(gap):
 
 
 def test_without_a_body_metrics_of_joints_do_not_apply(gap):
-    outcome = problem(~gap.given[0].visible, body=None).outcome(
-        FilledRecordings((Prediction(WALK.values),))
-    )
+    outcome = problem(~gap.given[0].visible, body=None).outcome((Prediction(WALK.values),))
     assert not METRICS.get("mpjpe").applies(outcome)
     assert METRICS.get("mse").applies(outcome)
 
@@ -116,7 +112,7 @@ def test_without_a_body_metrics_of_joints_do_not_apply(gap):
 def test_samples_and_references_are_placed_on_one_body():
     path = MOTION.recording("walk").frames(range(0, 200, 4))
     posed = SynthesiseProblem((path,), path.times, 2, (path.values,), body=JointAngles(SKELETON))
-    poses = posed.outcome(Samples(np.stack([path.values, path.values + 1.0]))).poses
+    poses = posed.outcome(np.stack([path.values, path.values + 1.0])).poses
     expected = joint_positions(SKELETON, path)
     np.testing.assert_allclose(poses.samples[0], expected)
     np.testing.assert_allclose(poses.references[0], expected)

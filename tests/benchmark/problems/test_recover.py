@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import Layered
-from mocapbench.benchmark import METRICS, Covariances, InvalidPredictionError
+from mocapbench.benchmark import METRICS, InvalidPredictionError
 
 METRIC_NAMES = ("frobenius_child", "frobenius_parent", "logdet_child", "logdet_parent")
 
@@ -52,7 +52,7 @@ def test_the_truth_has_no_error(problem):
 
 def test_the_one_kernel_of_a_model_without_a_hierarchy_stands_for_the_childrens(problem):
     solution = problem.solve(_Flat({"only": problem.truth["child"]}), 0)
-    assert set(solution.by_layer) == {"child"}
+    assert set(solution) == {"child"}
     assert set(_scores(problem.outcome(solution))) == {"frobenius_child", "logdet_child"}
 
 
@@ -63,7 +63,10 @@ def test_a_covariance_of_another_shape_or_with_nan_is_refused(problem, wrong):
 
 
 @pytest.mark.parametrize("layers", [(), ("child",), ("parent", "child"), ("only", "a-b")])
-def test_an_answer_survives_the_store(survives, layers):
+def test_an_answer_survives_the_store(survives, problem, layers):
     matrices = np.random.default_rng(0).normal(size=(len(layers), 6, 6))
-    solution = Covariances(dict(zip(layers, matrices, strict=True)))
-    assert survives(solution, {"coregionalisation-child": np.eye(3)})
+    solution, other = (
+        dict(zip(layers, matrices, strict=True)),
+        {"coregionalisation-child": np.eye(3)},
+    )
+    assert survives(solution, problem.to_arrays, problem.from_arrays, other)

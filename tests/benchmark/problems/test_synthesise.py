@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from mocapbench.baselines import Synthesiser
-from mocapbench.benchmark import InvalidPredictionError, Samples, SynthesiseProblem
+from mocapbench.benchmark import InvalidPredictionError, SynthesiseProblem
 
 TIMES = np.arange(5.0)
 
@@ -23,19 +23,22 @@ class Noise(Synthesiser):
         return self.mean + rng.standard_normal((n_samples, len(times), 2))
 
 
+PROBLEM = SynthesiseProblem((), TIMES, 4, (np.zeros((5, 2)), np.ones((5, 2))))
+
+
 def test_samples_are_seeded_and_checked():
-    problem = SynthesiseProblem((), TIMES, 4, (np.zeros((5, 2)), np.ones((5, 2))))
-    one, two = (problem.solve(Noise(), 7) for _ in range(2))
-    np.testing.assert_array_equal(one.values, two.values)
-    assert not np.array_equal(one.values, problem.solve(Noise(), 8).values)
-    outcome = problem.outcome(one)
+    one, two = (PROBLEM.solve(Noise(), 7) for _ in range(2))
+    np.testing.assert_array_equal(one, two)
+    assert not np.array_equal(one, PROBLEM.solve(Noise(), 8))
+    outcome = PROBLEM.outcome(one)
     assert outcome.samples.shape == (4, 5, 2)
     assert outcome.references.shape == (2, 5, 2)
     with pytest.raises(InvalidPredictionError, match="expected finite samples of shape"):
-        problem.solve(Noise(np.nan), 0)
+        PROBLEM.solve(Noise(np.nan), 0)
 
 
 @settings(max_examples=25)
 @given(arrays(np.float64, array_shapes(min_dims=3, max_dims=3, max_side=4)))
 def test_an_answer_survives_the_store(survives, values):
-    assert survives(Samples(values), {"trend-mean": TIMES})
+    other = {"trend-mean": TIMES}
+    assert survives(values, PROBLEM.to_arrays, PROBLEM.from_arrays, other)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import CubicSplineImputer, Prediction
-from mocapbench.benchmark import METRICS, TASKS, FilledRecordings
+from mocapbench.benchmark import METRICS, TASKS
 from mocapbench.benchmark.tasks.marker_gaps import LIMBS, N_BESIDE, RATE, SECONDS
 
 TASK = TASKS.get("marker-gaps")
@@ -93,7 +93,7 @@ def test_the_root_stays_where_it_is_on_the_floor(posed):
 def test_a_perfect_answer_has_no_error_and_rigid_bones(posed):
     problem = posed("marker-gaps", SYNTHETIC[1].name)
     spline = problem.solve(CubicSplineImputer().fit(problem.train), 0)
-    perfect = FilledRecordings((Prediction(problem.truth[0]),))
+    perfect = (Prediction(problem.truth[0]),)
     expected = {"mpjpe": 0.0, "mpjpe_global": 0.0, "bone_length_error": 0.0, "jerk_ratio": 1.0}
     for name, value in expected.items():
         assert METRICS.get(name)(problem.outcome(perfect)).value == value

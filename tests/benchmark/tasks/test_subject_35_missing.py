@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import Calibrated, Prediction
-from mocapbench.benchmark import METRICS, MODELS, TASKS, FilledRecordings, archive_at
+from mocapbench.benchmark import METRICS, MODELS, TASKS, archive_at
 from mocapbench.datasets import taylor_deviations, taylor_scales
 
 NAME = "subject-35-missing"
@@ -57,7 +57,7 @@ def test_errors_are_in_degrees(posed, case, n_hidden):
     problem = posed(NAME, case)
     (given,), (truth,) = problem.given, problem.truth
     shift = np.deg2rad(3.0) / np.array([taylor_deviations()[name] for name in given.channels])
-    off = FilledRecordings((Prediction(np.where(given.visible, truth, truth + shift)),))
+    off = (Prediction(np.where(given.visible, truth, truth + shift)),)
     outcome = problem.outcome(off)
     hidden = np.flatnonzero(~given.visible[-1])
     scales = [taylor_scales()[given.channels[d]] for d in hidden]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import NN, Prediction
-from mocapbench.benchmark import METRICS, FilledRecordings
+from mocapbench.benchmark import METRICS
 from mocapbench.benchmark.tasks.hlm_recordings import SYNTHETIC
 from mocapbench.benchmark.tasks.upper_body_missing import N_WALKS
 
@@ -43,7 +43,7 @@ def test_the_walk_is_held_out(synthetic):
 
 def test_a_score_is_in_squared_degrees_per_hidden_angle(synthetic):
     (given,), (truth,) = synthetic.given, synthetic.truth
-    off = FilledRecordings((Prediction(np.where(given.visible, truth, truth + 3.0)),))
+    off = (Prediction(np.where(given.visible, truth, truth + 3.0)),)
     assert METRICS.get("mse")(synthetic.outcome(off)).value == pytest.approx(9.0)
 
 

@@ -7,8 +7,6 @@ import pytest
 
 from mocapbench.baselines import Prediction
 from mocapbench.benchmark import (
-    FilledRecordings,
-    Samples,
     Solved,
     draw_filled_motion,
     draw_sampled_motion,
@@ -20,7 +18,7 @@ from mocapbench.benchmark.figures.motions.scaled_values import scaled_angles
 def filled(problem, offsets):
     """Return solutions that are off by a constant each, also where entries are visible."""
     truth = problem.truth[0]
-    return {label: FilledRecordings((Prediction(truth + off),)) for label, off in offsets.items()}
+    return {label: (Prediction(truth + off),) for label, off in offsets.items()}
 
 
 @pytest.fixture
@@ -73,7 +71,7 @@ def test_scaled_values_are_placed_on_the_spot(posed):
 def test_a_sample_is_beside_the_reference_that_it_is_nearest_to(posed):
     problem = posed("walking-synthesis", "synthetic")
     solutions = {
-        f"like-{k + 1}": Samples(np.stack([reference, problem.references[0]]))
+        f"like-{k + 1}": np.stack([reference, problem.references[0]])
         for k, reference in enumerate(problem.references)
     }
     (picture,) = draw_sampled_motion(Solved("walking-synthesis", problem, solutions))
