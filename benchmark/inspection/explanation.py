@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import chain
 from pathlib import Path
-from typing import NamedTuple
 
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.job import Job
@@ -16,7 +15,7 @@ from mocapbench.benchmark.runs.key_parts import DIGEST
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["Explanation", "PartChange", "Step", "changes", "explain", "in_words"]
+__all__ = ["Changes", "Explanation", "Step", "changes", "explain", "in_words"]
 
 _KINDS = ("metric", "parameter", "recording", "reference recording")
 """Of which a key may have many."""
@@ -24,55 +23,47 @@ _MANY = 3
 """Changes of one kind beyond which they are counted."""
 
 
-class PartChange(NamedTuple):
-    """A part of a key that is not as it was; empty where there is none."""
-
-    part: str
-    before: str
-    after: str
-
-    @property
-    def verb(self) -> str:
-        """What happened to the part, unless its value is all that changed."""
-        match self.before, self.after:
-            case "", _:
-                return " added"
-            case _, "":
-                return " left out"
-            case _:
-                return ""
-
-    def __str__(self) -> str:
-        values = [value for value in (self.before, self.after) if value]
-        if any(value.startswith(DIGEST) for value in values):
-            return f"{self.part}{self.verb}"
-        return f"{self.part}{self.verb} {' → '.join(values)}"
+Changes = Mapping[str, tuple[str, str]]
+"""The parts of a key that are not as they were: before and after, empty where there is none."""
 
 
-def changes(before: Mapping[str, str], after: Mapping[str, str]) -> tuple[PartChange, ...]:
+def changes(before: Mapping[str, str], after: Mapping[str, str]) -> Changes:
     """Return what differs between the parts of two keys, by name."""
-    return tuple(
-        PartChange(name, before.get(name, ""), after.get(name, ""))
+    return {
+        name: (before.get(name, ""), after.get(name, ""))
         for name in {**before, **after}
         if before.get(name) != after.get(name)
-    )
+    }
 
 
-def in_words(several: Iterable[PartChange]) -> str:
+def in_words(changed: Changes) -> str:
     """Return changes in words; many alike are counted."""
-    alike: dict[tuple[str, str], list[PartChange]] = defaultdict(list)
-    for change in several:
-        alike[_kind(change), change.verb].append(change)
+    alike: dict[tuple[str, str], list[str]] = defaultdict(list)
+    for part, values in changed.items():
+        alike[_kind(part), _verb(*values)].append(_describe_change(part, *values))
     texts = (
-        [f"{len(group)} {kind}s{verb}"] if len(group) > _MANY else map(str, group)
+        [f"{len(group)} {kind}s{verb}"] if len(group) > _MANY else group
         for (kind, verb), group in alike.items()
     )
     return ", ".join(chain.from_iterable(texts))
 
 
-def _kind(change: PartChange) -> str:
+def _kind(part: str) -> str:
     """Return of what kind a part is: the part of one metric is called ``metric NAME``."""
-    return next((kind for kind in _KINDS if change.part.startswith(f"{kind} ")), change.part)
+    return next((kind for kind in _KINDS if part.startswith(f"{kind} ")), part)
+
+
+def _verb(before: str, after: str) -> str:
+    """Return what happened to a part, unless its value is all that changed."""
+    if before and after:
+        return ""
+    return " added" if after else " left out"
+
+
+def _describe_change(part: str, before: str, after: str) -> str:
+    values = [value for value in (before, after) if value]
+    shown = "" if any(value.startswith(DIGEST) for value in values) else f" {' → '.join(values)}"
+    return f"{part}{_verb(before, after)}{shown}"
 
 
 _Parts = Mapping[Hashable, Sequence[Mapping[str, str]]]
@@ -99,14 +90,14 @@ class Explanation:
     step : Step
     cause : str
         In words.
-    changes : tuple of PartChange
+    changes : mapping of str to (str, str)
         What is new in its key, if the run directory has a record of the same row.
     """
 
     address: Address
     step: Step
     cause: str
-    changes: tuple[PartChange, ...] = ()
+    changes: Changes = field(default_factory=dict)
 
 
 def explain(jobs: Sequence[Job], out: Path) -> list[Explanation]:

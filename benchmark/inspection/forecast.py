@@ -10,7 +10,13 @@ from rich.table import Column, Table
 
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.inspection.explanation import Explanation, Step, explain
-from mocapbench.benchmark.inspection.work import MEASURED, Basis, ExpectedWork, work_of
+from mocapbench.benchmark.inspection.work import (
+    MEASURED,
+    Basis,
+    Estimate,
+    describe_work,
+    estimate_fits,
+)
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.job import Job
 
@@ -113,19 +119,19 @@ def forecast_lines(
     steps = ", ".join(f"{counts[step]} {_STEPS[step]}" for step in Step if counts[step])
     yield f"in {out}: {steps or 'nothing to do'}"
     now, with_all = expect_work(jobs, explanations, out, profile)
-    if not with_all.seconds:
+    if not with_all:
         return
-    if now.seconds:
-        yield f"time: {now.in_words(n_workers)}"
+    if now:
+        yield f"time: {describe_work(now, n_workers)}"
     if with_all != now:
-        yield f"time with the missing recordings: {with_all.in_words(n_workers)}"
+        yield f"time with the missing recordings: {describe_work(with_all, n_workers)}"
     yield from _describe_bases(with_all, profile)
 
 
 def expect_work(
     jobs: Sequence[Job], explanations: Sequence[Explanation], out: Path, profile: str
-) -> tuple[ExpectedWork, ExpectedWork]:
-    """Return the work with the recordings that are here, and with all that the jobs need.
+) -> tuple[list[Estimate], list[Estimate]]:
+    """Return the fits with the recordings that are here, and with all that the jobs need.
 
     Parameters
     ----------
@@ -144,8 +150,8 @@ def expect_work(
         _fit_shared_by(job): job.address for job in jobs if _fit_shared_by(job) not in predicted
     }
     return (
-        work_of(to_fit, records, profile),
-        work_of([*to_fit, *without.values()], records, profile),
+        estimate_fits(to_fit, records, profile),
+        estimate_fits([*to_fit, *without.values()], records, profile),
     )
 
 
@@ -154,8 +160,8 @@ def _fit_shared_by(job: Job) -> str:
     return job.training_key or job.fit_key
 
 
-def _describe_bases(work: ExpectedWork, profile: str) -> Iterator[str]:
-    by = work.known_by
+def _describe_bases(work: Sequence[Estimate], profile: str) -> Iterator[str]:
+    by = Counter(basis for _, basis in work)
     fits = (f"{basis} ({format_count(by[basis], 'fit')})" for basis in Basis if by[basis])
     yield f"estimated by {', by '.join(fits)}"
     measured = MEASURED[profile]

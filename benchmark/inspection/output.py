@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 
 from rich.table import Column, Table
 
 from mocapbench.basics.words import format_count
-from mocapbench.benchmark.inspection.explanation import Explanation, PartChange, Step, in_words
+from mocapbench.benchmark.inspection.explanation import Changes, Explanation, Step, in_words
 from mocapbench.benchmark.inspection.state import RunState
+from mocapbench.benchmark.inspection.work import describe_work
 from mocapbench.benchmark.runs import progress
 from mocapbench.benchmark.runs.key_parts import DIGEST
 
@@ -31,8 +32,7 @@ def explanation_table(explanations: Sequence[Explanation]) -> Table:
     lines: dict[tuple[str, Step, str, tuple[str, ...]], list[Explanation]] = defaultdict(list)
     for item in explanations:
         entrants[item.address.task].add(item.address.label)
-        parts = tuple(change.part for change in item.changes)
-        lines[item.address.task, item.step, item.cause, parts].append(item)
+        lines[item.address.task, item.step, item.cause, (*item.changes,)].append(item)
     for (task, step, cause, _), items in lines.items():
         labels = dict.fromkeys(item.address.label for item in items)
         every = len(labels) > 1 and labels.keys() == entrants[task]
@@ -49,14 +49,17 @@ def _summary(explanations: Sequence[Explanation]) -> str:
     return f"{format_count(len(explanations), 'job')}: {parts}"
 
 
-def _common(several: Sequence[Sequence[PartChange]]) -> Iterator[PartChange]:
-    """Yield the changes that all have, with those values that are the same for all."""
-    for changes in zip(*several, strict=True):
-        before, after = (
-            values.pop() if len(values) == 1 else _DIFFERENT
-            for values in ({c.before for c in changes}, {c.after for c in changes})
-        )
-        yield PartChange(changes[0].part, before, after)
+def _common(several: Sequence[Changes]) -> Changes:
+    """Return the changes of parts that all have, with those values that are the same for all."""
+    common = {}
+    for part in several[0]:
+        before, after = map(set, zip(*(changes[part] for changes in several), strict=True))
+        common[part] = (_same_value(before), _same_value(after))
+    return common
+
+
+def _same_value(values: Collection[str]) -> str:
+    return next(iter(values)) if len(values) == 1 else _DIFFERENT
 
 
 def state_table(tasks: Mapping[str, Counter[str]], total: Counter[str]) -> Table:
@@ -85,8 +88,8 @@ def state_lines(state: RunState, now: datetime) -> Iterable[str]:
     lines = [f"{state.name}{_origin(state.about, now)}"]
     if "wall time" in state.about and not state.writing:
         lines.append(f"wall time: {state.about['wall time']}")
-    if state.work_left.seconds:
-        lines.append(f"time left: {state.work_left.in_words(state.workers)}")
+    if state.work_left:
+        lines.append(f"time left: {describe_work(state.work_left, state.workers)}")
     if state.name == "interrupted":
         lines.append("the same command resumes it")
     return lines

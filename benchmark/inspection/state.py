@@ -6,7 +6,7 @@ from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from mocapbench.benchmark.inspection.work import MEASURED, ExpectedWork, work_of
+from mocapbench.benchmark.inspection.work import MEASURED, Estimate, estimate_fits
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.plan_document import PlannedJob, planned_jobs
 from mocapbench.benchmark.runs.record import Record, Status
@@ -27,7 +27,7 @@ class RunState:
         Whether a run is writing to the folder now.
     about : mapping of str to str
         The run's provenance.
-    work_left : ExpectedWork
+    work_left : sequence of Estimate
         The fits of jobs that are left.
     workers : int
         How many jobs run at once.
@@ -38,7 +38,7 @@ class RunState:
     tasks: Mapping[str, Counter[str]]
     writing: bool
     about: Mapping[str, str]
-    work_left: ExpectedWork
+    work_left: Sequence[Estimate]
     workers: int
     damaged: tuple[str, ...]
 
@@ -89,7 +89,7 @@ def _name_state(record: Record | None) -> str:
     return "done" if record.status is Status.OK else "data missing"
 
 
-def _work_left(left: Sequence[PlannedJob], store: RunDirectory, profile: str) -> ExpectedWork:
+def _work_left(left: Sequence[PlannedJob], store: RunDirectory, profile: str) -> list[Estimate]:
     """Return the fits of jobs, as a forecast of the same run tells them.
 
     To score predictions that are there, or that another row asks for too, takes no time beside it.
@@ -99,4 +99,4 @@ def _work_left(left: Sequence[PlannedJob], store: RunDirectory, profile: str) ->
     new = [job for job in left if job.fit_key not in predicted]
     fits = {job.training_key or job.fit_key: job.address for job in new}
     known = profile if profile in MEASURED else "quick"  # runs that were merged have no profile
-    return work_of(fits.values(), store.records(), known)
+    return estimate_fits(fits.values(), store.records(), known)

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import csv
-from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import NamedTuple
 
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.runs.execution.durations import Durations
@@ -15,7 +13,17 @@ from mocapbench.benchmark.runs.progress import in_words
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["MEASURED", "Basis", "ExpectedWork", "alike", "of_records", "typical", "work_of"]
+__all__ = [
+    "MEASURED",
+    "Basis",
+    "Estimate",
+    "alike",
+    "describe_work",
+    "estimate_fits",
+    "of_records",
+    "typical",
+    "wall_time",
+]
 
 MEASURED = {"smoke": "smoke", "quick": "quick", "paper": "quick"}
 """Of each profile, the one whose fits were measured; those of ``paper`` take longer."""
@@ -68,40 +76,32 @@ class Basis(StrEnum):
     MEAN = "the mean of all entrants there"
 
 
-class ExpectedWork(NamedTuple):
-    """Fits to do; to predict by a fit that is shared, and to score, takes little time beside it.
+Estimate = tuple[float, Basis]
+"""How many seconds a fit is expected to take, and how that is known."""
 
-    Parameters
-    ----------
-    seconds : tuple of float
-        How long each is expected to take.
-    known_by : mapping of Basis to int
-        Of how many that is known by what.
+
+def wall_time(seconds: Sequence[float], n_workers: int) -> float:
+    """Return how long fits take that take so many seconds each, with so many jobs at once."""
+    return max(sum(seconds) / n_workers, *seconds, 0.0)
+
+
+def describe_work(fits: Sequence[Estimate], n_workers: int | None) -> str:
+    """Return how long fits take with so many jobs at once; None if a cluster decides.
+
+    To predict by a fit that is shared, and to score, takes little time beside it.
     """
-
-    seconds: tuple[float, ...]
-    known_by: Mapping[Basis, int]
-
-    @property
-    def total(self) -> float:
-        """Seconds of all fits one after the other."""
-        return sum(self.seconds)
-
-    def wall_time(self, n_workers: int) -> float:
-        """Return the seconds that it takes with so many jobs at once."""
-        return max(self.total / n_workers, *self.seconds, 0.0)
-
-    def in_words(self, n_workers: int | None) -> str:
-        """Return how long it takes with so many jobs at once; None if a cluster decides."""
-        fits = f"{in_words(self.total)} of work in {format_count(len(self.seconds), 'fit')}"
-        if n_workers is None:
-            return f"about {fits}, divided among the workers of the cluster"
-        wall = in_words(self.wall_time(n_workers))
-        return f"about {wall} with {format_count(n_workers, 'job')} at once ({fits})"
+    seconds = [each for each, _ in fits]
+    work = f"{in_words(sum(seconds))} of work in {format_count(len(fits), 'fit')}"
+    if n_workers is None:
+        return f"about {work}, divided among the workers of the cluster"
+    wall = in_words(wall_time(seconds, n_workers))
+    return f"about {wall} with {format_count(n_workers, 'job')} at once ({work})"
 
 
-def work_of(fits: Iterable[Address], records: Iterable[Record], profile: str) -> ExpectedWork:
-    """Return the work of some fits.
+def estimate_fits(
+    fits: Iterable[Address], records: Iterable[Record], profile: str
+) -> list[Estimate]:
+    """Return how long each of some fits is expected to take.
 
     Parameters
     ----------
@@ -112,16 +112,14 @@ def work_of(fits: Iterable[Address], records: Iterable[Record], profile: str) ->
         Tells how long a fit takes of which there is no record.
     """
     own, developers = of_records(records), typical(profile)
-    estimates = [_estimate(address, own, developers) for address in fits]
-    seconds = tuple(seconds for _, seconds in estimates)
-    return ExpectedWork(seconds, Counter(basis for basis, _ in estimates))
+    return [_estimate(address, own, developers) for address in fits]
 
 
-def _estimate(address: Address, own: Durations, developers: Durations) -> tuple[Basis, float]:
+def _estimate(address: Address, own: Durations, developers: Durations) -> Estimate:
     """Return how long a fit takes by the surest of the ways that know; the last always does."""
     *entrant, anything = alike(address)
     if own.knows(entrant):
-        return Basis.RECORDS, own.expect_seconds(entrant)
+        return own.expect_seconds(entrant), Basis.RECORDS
     if developers.knows(entrant):
-        return Basis.TYPICAL, developers.expect_seconds(entrant)
-    return Basis.MEAN, developers.expect_seconds([anything])
+        return developers.expect_seconds(entrant), Basis.TYPICAL
+    return developers.expect_seconds([anything]), Basis.MEAN
