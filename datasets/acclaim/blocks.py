@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence, Set
 from itertools import takewhile
 
 from mocapbench.datasets.acclaim.text import Line, content_lines
 
-__all__ = ["Fields", "blocks", "sections"]
+__all__ = ["blocks", "read_fields", "sections"]
 
 
 def sections(text: str, file: str) -> dict[str, list[Line]]:
@@ -49,37 +48,32 @@ def blocks(section: Sequence[Line]) -> Iterator[list[Line]]:
         yield [begin, *takewhile(lambda line: line.words != ("end",), lines)]
 
 
-@dataclass(frozen=True)
-class Fields:
-    """The lines below a heading by their first word, each at most once."""
+def read_fields(
+    section: Sequence[Line], required: Set[str], optional: Set[str] = frozenset()
+) -> dict[str, Line]:
+    """Return the lines below a heading by their first word.
 
-    heading: Line
-    lines: Mapping[str, Line]
+    Parameters
+    ----------
+    section : sequence of Line
+        Of a section or block, its heading first.
+    required, optional : set of str
+        The fields that it must have, and those that it may have.
 
-    @classmethod
-    def parse(cls, section: Sequence[Line], allowed: Set[str]) -> Fields:
-        """Return the fields of a section or block, given its lines with the heading first.
-
-        Raises
-        ------
-        AcclaimError
-            If a field is repeated or is not one of those allowed.
-        """
-        heading, *lines = section
-        fields: dict[str, Line] = {}
-        for line in lines:
-            name = line.words[0]
-            if name.startswith("("):  # further lines of joint limits
-                continue
-            if name not in allowed or name in fields:
-                raise line.error(f"one of {', '.join(sorted(allowed - fields.keys()))}")
-            fields[name] = line
-        return cls(heading, fields)
-
-    def __contains__(self, name: str) -> bool:
-        return name in self.lines
-
-    def __getitem__(self, name: str) -> Line:
-        if name not in self.lines:
-            raise self.heading.error(f"a line {name!r} below")
-        return self.lines[name]
+    Raises
+    ------
+    AcclaimError
+        If a field is repeated, is missing, or is none of these.
+    """
+    heading, *lines = section
+    fields: dict[str, Line] = {}
+    for line in lines:
+        name = line.words[0]
+        if name.startswith("("):  # further lines of joint limits
+            continue
+        if name not in required | optional or name in fields:
+            raise line.error(f"one of {', '.join(sorted((required | optional) - fields.keys()))}")
+        fields[name] = line
+    for name in sorted(required - fields.keys()):
+        raise heading.error(f"a line {name!r} below")
+    return fields

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cached_property
 from io import StringIO
 from itertools import accumulate, islice
 
@@ -14,7 +13,6 @@ from mocapbench.datasets.acclaim.text import FINITE_NUMBERS, Line, finite_floats
 __all__ = ["Frame", "Layout", "frames"]
 
 
-@dataclass(frozen=True)
 class Layout:
     """What every frame holds.
 
@@ -24,12 +22,13 @@ class Layout:
         Segments in the order of the file, each with the number of its degrees of freedom.
     """
 
-    counts: Sequence[tuple[str, int]]
-
-    @cached_property
-    def n_words(self) -> int:
-        """How many words the lines of the segments have."""
-        return sum(1 + count for _, count in self.counts)
+    def __init__(self, counts: Sequence[tuple[str, int]]) -> None:
+        self.counts = counts
+        self._names = [name for name, _ in counts]
+        ends = [*accumulate(1 + count for _, count in counts)]
+        self._starts = [0, *ends][: len(counts)]
+        self.n_words = sum(1 + count for _, count in counts)
+        self._places = sorted({*range(self.n_words)} - {*self._starts})
 
     def fits(self, texts: Sequence[str], words: Sequence[str]) -> bool:
         """Return whether each line of a frame begins with its segment and has as many words.
@@ -46,20 +45,6 @@ class Layout:
     def numbers(self, words: Sequence[str]) -> list[str]:
         """Return the words that are not names of segments."""
         return [words[place] for place in self._places]
-
-    @cached_property
-    def _names(self) -> list[str]:
-        return [name for name, _ in self.counts]
-
-    @cached_property
-    def _starts(self) -> list[int]:
-        sizes = [1 + count for _, count in self.counts]
-        return [0, *accumulate(sizes[:-1])]
-
-    @cached_property
-    def _places(self) -> list[int]:
-        starts = set(self._starts)
-        return [place for place in range(self.n_words) if place not in starts]
 
 
 @dataclass(frozen=True, slots=True)

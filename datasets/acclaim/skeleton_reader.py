@@ -10,7 +10,7 @@ from dataclasses import replace
 from math import degrees
 from pathlib import Path
 
-from mocapbench.datasets.acclaim.blocks import Fields, blocks, sections
+from mocapbench.datasets.acclaim.blocks import blocks, read_fields, sections
 from mocapbench.datasets.acclaim.errors import AcclaimError
 from mocapbench.datasets.acclaim.skeleton import Segment, Skeleton, Vector
 from mocapbench.datasets.acclaim.text import Line, name_list, read_text
@@ -18,10 +18,9 @@ from mocapbench.datasets.acclaim.text import Line, name_list, read_text
 __all__ = ["parse_skeleton", "read_skeleton"]
 
 _MAX_BYTES = 2**20  # a file of the CMU database has 7,000
-_KEPT = {"name", "direction", "length", "axis", "dof"}
-_BONE_FIELDS = _KEPT | {"id", "limits", "bodymass", "cofmass"}
+_BONE_FIELDS = {"name", "direction", "length", "axis"}
+_MORE_BONE_FIELDS = {"dof", "id", "limits", "bodymass", "cofmass"}
 _ROOT_FIELDS = {"order", "axis", "position", "orientation"}
-_UNIT_FIELDS = {"mass", "length", "angle"}
 _DEGREES_PER = {"deg": 1.0, "rad": degrees(1.0)}
 _ROTATIONS = {"rx", "ry", "rz"}
 _TRANSLATIONS = {"tx", "ty", "tz"}
@@ -88,11 +87,11 @@ def parse_skeleton(text: str, file: str) -> Skeleton:
     for name in (":name", ":units", ":root", ":bonedata", ":hierarchy"):
         if name not in found:
             raise AcclaimError(file, None, f"a section {name!r}", "none")
-    units = Fields.parse(found[":units"], _UNIT_FIELDS)
+    units = read_fields(found[":units"], {"length", "angle"}, {"mass"})
     degrees_per_unit = _lookup(units["angle"], _DEGREES_PER)
-    segments = {"root": _root(Fields.parse(found[":root"], _ROOT_FIELDS))}
+    segments = {"root": _root(read_fields(found[":root"], _ROOT_FIELDS))}
     for block in blocks(found[":bonedata"]):
-        segment = _segment(Fields.parse(block, _BONE_FIELDS), degrees_per_unit)
+        segment = _segment(read_fields(block, _BONE_FIELDS, _MORE_BONE_FIELDS), degrees_per_unit)
         if segment.name in segments:
             raise block[0].error(f"a segment other than {segment.name!r}, which is defined above")
         segments[segment.name] = segment
@@ -100,7 +99,7 @@ def parse_skeleton(text: str, file: str) -> Skeleton:
     return Skeleton(name, _positive(units["length"]), _hang(found[":hierarchy"], segments))
 
 
-def _root(fields: Fields) -> Segment:
+def _root(fields: Mapping[str, Line]) -> Segment:
     for name in ("position", "orientation"):
         if any(_vector(fields[name])):
             raise fields[name].error(f"'{name} 0 0 0', as other rest poses are not supported")
@@ -111,7 +110,7 @@ def _root(fields: Fields) -> Segment:
     return Segment("root", "", zero, 0.0, zero, _rotation_order(fields["axis"], 1), dof)
 
 
-def _segment(fields: Fields, degrees_per_unit: float) -> Segment:
+def _segment(fields: Mapping[str, Line], degrees_per_unit: float) -> Segment:
     axis = tuple(degrees_per_unit * angle for angle in fields["axis"].floats(1, 4))
     dof = fields["dof"].words[1:] if "dof" in fields else ()
     if not _ROTATIONS.issuperset(dof) or len(set(dof)) != len(dof):
