@@ -12,7 +12,7 @@ from distributed import CancelledError, Client, Future, KilledWorker, wait
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.runs.cluster.installation import installation
-from mocapbench.benchmark.runs.cluster.plugin_files import PluginFiles
+from mocapbench.benchmark.runs.cluster.plugin_files import read_plugin_files
 from mocapbench.benchmark.runs.cluster.run_plugin import RunPlugin, run_on_worker
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
@@ -38,7 +38,7 @@ class ClusterExecutor:
         self._client = client
         self._spool = spool
         self._recordings: dict[str, Future[bytes]] = {}
-        name, files = f"mocapbench-{uuid.uuid4().hex}", PluginFiles.read(config.plugins)
+        name, files = f"mocapbench-{uuid.uuid4().hex}", read_plugin_files(config.plugins)
         self._plugin = RunPlugin(name, config, files, installation())
         client.register_plugin(self._plugin)
 

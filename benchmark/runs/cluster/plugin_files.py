@@ -1,53 +1,61 @@
-"""The user's own Python files, as they travel to workers that do not share a disk."""
+"""The user's own Python files, as they travel to workers that do not share a disk.
+
+Files of one folder stay together, and keep their names, so that they find each other.
+"""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple, Self
 
-__all__ = ["PluginFiles"]
+__all__ = ["read_plugin_files", "write_plugin_files"]
 
 
-class PluginFiles(NamedTuple):
-    """Plug-in files and the helpers that lie beside them, by folder.
+def read_plugin_files(plugins: Sequence[Path]) -> dict[str, bytes]:
+    """Return plug-ins that this process has loaded, and the helpers beside them that they import.
 
-    Files of one folder stay together, and keep their names, so that they find each other.
+    Parameters
+    ----------
+    plugins : sequence of Path
+        Full paths.
+
+    Returns
+    -------
+    dict of str to bytes
+        By paths below a folder of the worker.
     """
+    helpers = (path for parent in _list_parents(plugins) for path in _helpers(parent))
+    every = dict.fromkeys([*plugins, *helpers])
+    return {_shorten_path(path, plugins): path.read_bytes() for path in every}
 
-    folders: tuple[Mapping[str, bytes], ...]
-    """What each folder holds: contents by name."""
-    plugins: tuple[tuple[int, str], ...]
-    """The plug-ins: the index of the folder, and the name."""
 
-    @classmethod
-    def read(cls, plugins: Sequence[Path]) -> Self:
-        """Return plug-ins that this process has loaded, with the helpers that they import.
+def write_plugin_files(
+    files: Mapping[str, bytes], plugins: Sequence[Path], folder: Path
+) -> tuple[Path, ...]:
+    """Write all files below ``folder``, and return the paths of the plug-ins there.
 
-        Parameters
-        ----------
-        plugins : sequence of Path
-            Full paths.
-        """
-        parents = list(dict.fromkeys(path.parent for path in plugins))
-        folders = tuple(
-            {
-                path.name: path.read_bytes()
-                for path in (*plugins, *_helpers(parent))
-                if path.parent == parent
-            }
-            for parent in parents
-        )
-        return cls(folders, tuple((parents.index(path.parent), path.name) for path in plugins))
+    Parameters
+    ----------
+    files : mapping of str to bytes
+        What `read_plugin_files` returned.
+    plugins : sequence of Path
+        What it was given.
+    folder : Path
+    """
+    for name, content in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(content)
+    return tuple(folder / _shorten_path(path, plugins) for path in plugins)
 
-    def write(self, folder: Path) -> tuple[Path, ...]:
-        """Write all files below ``folder``, and return the paths of the plug-ins there."""
-        for index, files in enumerate(self.folders):
-            (folder / str(index)).mkdir(parents=True)
-            for name, content in files.items():
-                (folder / str(index) / name).write_bytes(content)
-        return tuple(folder / str(index) / name for index, name in self.plugins)
+
+def _list_parents(plugins: Sequence[Path]) -> list[Path]:
+    return list(dict.fromkeys(path.parent for path in plugins))
+
+
+def _shorten_path(path: Path, plugins: Sequence[Path]) -> str:
+    """Return the path of a file beside a plug-in, with the number of its folder."""
+    return f"{_list_parents(plugins).index(path.parent)}/{path.name}"
 
 
 def _helpers(folder: Path) -> Iterator[Path]:

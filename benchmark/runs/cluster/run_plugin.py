@@ -11,7 +11,6 @@ from distributed import Reschedule, Worker, WorkerPlugin, get_worker
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.cluster.installation import difference, installation
-from mocapbench.benchmark.runs.cluster.plugin_files import PluginFiles
 from mocapbench.benchmark.runs.cluster.worker_state import WorkerState
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
 
@@ -26,13 +25,18 @@ class RunPlugin(WorkerPlugin):
     name : str
         A name that no other run has.
     config : WorkerConfig
-    files : PluginFiles
+    files : mapping of str to bytes
+        What `read_plugin_files` returned.
     expected : mapping of str to str
         The installation that a worker must have.
     """
 
     def __init__(
-        self, name: str, config: WorkerConfig, files: PluginFiles, expected: Mapping[str, str]
+        self,
+        name: str,
+        config: WorkerConfig,
+        files: Mapping[str, bytes],
+        expected: Mapping[str, str],
     ) -> None:
         self.name = name
         self._config = config

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from distributed import Reschedule
 
-from mocapbench.benchmark.runs.cluster.plugin_files import PluginFiles
+from mocapbench.benchmark.runs.cluster.plugin_files import write_plugin_files
 from mocapbench.benchmark.runs.execution.job_pool import JobPool
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
@@ -33,11 +33,12 @@ class WorkerState:
         How many jobs run at once: the dask worker's threads.
     config : WorkerConfig
         Of the run; its paths are those of another machine.
-    files : PluginFiles
+    files : mapping of str to bytes
+        What `read_plugin_files` returned.
     """
 
     def __init__(
-        self, folder: Path, n_workers: int, config: WorkerConfig, files: PluginFiles
+        self, folder: Path, n_workers: int, config: WorkerConfig, files: Mapping[str, bytes]
     ) -> None:
         # Under its nanny a dask worker is a daemon, and daemons may not start processes. Ours end
         # with it all the same.
@@ -48,7 +49,7 @@ class WorkerState:
         config = replace(
             config,
             data_dir=None,
-            plugins=files.write(folder / "plugins"),
+            plugins=write_plugin_files(files, config.plugins, folder / "plugins"),
             provenance={**config.provenance, **machine_facts()},
         )
         self._pool = JobPool(n_workers, config, self._spool)
