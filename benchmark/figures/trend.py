@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.benchmark.problems.internals import Trend
+from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.datasets import Recording
 from mocapbench.reports import Axes, Curve, Illustration
 
@@ -52,16 +52,16 @@ def draw_trends(solved: Solved[Any, Any], /, channels: tuple[str, ...]) -> Seque
     return (Illustration(solved.task, "Underlying trend", caption, panels),)
 
 
-def _panel(parent: Recording, column: int, label: str, trend: Trend) -> Axes:
-    mean = trend.mean[:, column]
-    half = WIDTH_95 * np.sqrt(trend.variance[:, column])
+def _panel(parent: Recording, column: int, label: str, trend: Arrays) -> Axes:
+    times, mean = trend["trend-times"], trend["trend-mean"][:, column]
+    half = WIDTH_95 * np.sqrt(trend["trend-variance"][:, column])
     return Axes(
         f"{label}, {parent.channels[column]}",
         "time",
         "",
         (
             Curve(parent.times, parent.values[:, column], TRUE),
-            Curve(trend.times, mean, INFERRED),
+            Curve(times, mean, INFERRED),
         ),
-        bands={INFERRED: np.column_stack([trend.times, mean - half, mean + half])},
+        bands={INFERRED: np.column_stack([times, mean - half, mean + half])},
     )

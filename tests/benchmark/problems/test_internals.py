@@ -4,7 +4,7 @@ import pytest
 from mocapbench.baselines import MOHGP, Oracle, Trivial
 from mocapbench.benchmark import Internals
 from mocapbench.benchmark.problems.arrays import with_numbers
-from mocapbench.benchmark.problems.internals import Trend, internals_of
+from mocapbench.benchmark.problems.internals import internals_of
 
 
 @pytest.fixture(scope="module")
@@ -16,9 +16,9 @@ def test_a_model_with_a_trend_and_matrices_leaves_both(toy):
     model = MOHGP(n_components=2, kernel="rbf", max_iter=3).fit(toy.train)
     internals = internals_of(model, toy.train)
     mean, variance = model.trend(toy.train[0].times)
-    np.testing.assert_array_equal(internals.trend.times, toy.train[0].times)
-    np.testing.assert_array_equal(internals.trend.mean, mean)
-    np.testing.assert_array_equal(internals.trend.variance, variance)
+    np.testing.assert_array_equal(internals.trend["trend-times"], toy.train[0].times)
+    np.testing.assert_array_equal(internals.trend["trend-mean"], mean)
+    np.testing.assert_array_equal(internals.trend["trend-variance"], variance)
     assert set(internals.coregionalisation) == {"parent", "child"}
     for layer, matrices in internals.coregionalisation.items():
         np.testing.assert_array_equal(matrices, model.coregionalisation_[layer])
@@ -32,7 +32,7 @@ def test_a_model_leaves_what_it_has_and_no_more(toy):
 
 
 RNG = np.random.default_rng(0)
-TREND = Trend(*RNG.random((3, 5)))
+TREND = {f"trend-{name}": RNG.random(5) for name in ("times", "mean", "variance")}
 MATRICES = {"parent": RNG.random((3, 2, 2)), "child-of": RNG.random((1, 2, 2))}
 PROPERTIES = {"property-SNR(α)": np.asarray(3.5)}
 SPACE = {
