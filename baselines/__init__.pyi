@@ -5,7 +5,7 @@ from .channel_kriging import ChannelKriging
 from .control import Control
 from .cpm import CPM
 from .cyclic_alignment import CyclicAlignment
-from .declarations.abilities import ABILITIES, Ability
+from .declarations.abilities import ABILITIES, IMPLIED
 from .declarations.needs import NEEDS, Need
 from .fam import FAM
 from .gp_independent import GPIndependent
@@ -66,6 +66,7 @@ __all__ = [
     "GPDM",
     "GPLVM",
     "HGP",
+    "IMPLIED",
     "KCPM",
     "KFAM",
     "KNN",
@@ -75,7 +76,6 @@ __all__ = [
     "MOHGP",
     "NEEDS",
     "NN",
-    "Ability",
     "AlignedWindow",
     "Aligner",
     "BestOf",

@@ -7,41 +7,37 @@ that belong to each.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import NamedTuple
 
-__all__ = ["ABILITIES", "Ability", "describe_abilities"]
-
-
-class Ability(NamedTuple):
-    """Something that a model can do."""
-
-    sentence: str
-    """What the model does, in words for people."""
-    implies: str = ""
-    """An ability that every model with this one has."""
+__all__ = ["ABILITIES", "IMPLIED", "describe_abilities"]
 
 
-ABILITIES: Mapping[str, Ability] = {
-    "fills entries": Ability("fills any gaps", implies="fills frames"),
-    "fills frames": Ability("fills gaps of whole frames"),
-    "fills new recordings": Ability("new recordings too"),
-    "interpolates": Ability("fills each channel by itself", implies="fills entries"),
-    "draws samples": Ability("synthesises"),
-    "clusters": Ability("clusters"),
-    "aligns": Ability("aligns"),
-    "blends": Ability("blends", implies="clusters"),
-    "has layers": Ability("gives the covariance of each layer"),
-    "has coregionalisation": Ability(
-        "gives coregionalisation matrices of each layer", implies="has layers"
-    ),
-    "has a trend": Ability("gives a common trend"),
-    "has a latent space": Ability("gives latent positions"),
-    "has latent dynamics": Ability(
-        "gives latent positions with dynamics", implies="has a latent space"
-    ),
-    "replays": Ability("replays training recordings", implies="draws samples"),
+ABILITIES: Mapping[str, str] = {
+    "fills entries": "fills any gaps",
+    "fills frames": "fills gaps of whole frames",
+    "fills new recordings": "new recordings too",
+    "interpolates": "fills each channel by itself",
+    "draws samples": "synthesises",
+    "clusters": "clusters",
+    "aligns": "aligns",
+    "blends": "blends",
+    "has layers": "gives the covariance of each layer",
+    "has coregionalisation": "gives coregionalisation matrices of each layer",
+    "has a trend": "gives a common trend",
+    "has a latent space": "gives latent positions",
+    "has latent dynamics": "gives latent positions with dynamics",
+    "replays": "replays training recordings",
 }
-"""Every ability by its name, in the order in which a catalogue shows them."""
+"""What a model with an ability does, in words for people, in the order of a catalogue."""
+
+IMPLIED: Mapping[str, str] = {
+    "fills entries": "fills frames",
+    "interpolates": "fills entries",
+    "blends": "clusters",
+    "has coregionalisation": "has layers",
+    "has latent dynamics": "has a latent space",
+    "replays": "draws samples",
+}
+"""By an ability, another one that every model with it has."""
 
 
 def describe_abilities(names: Iterable[str]) -> list[str]:
@@ -54,5 +50,5 @@ def describe_abilities(names: Iterable[str]) -> list[str]:
     ['fills any gaps', 'aligns']
     """
     given = set(names)
-    implied = {ability.implies for name, ability in ABILITIES.items() if name in given}
-    return [ability.sentence for name, ability in ABILITIES.items() if name in given - implied]
+    implied = {other for name, other in IMPLIED.items() if name in given}
+    return [sentence for name, sentence in ABILITIES.items() if name in given - implied]

@@ -8,7 +8,7 @@ from typing import Any
 
 from sklearn.base import clone
 
-from mocapbench.baselines import ABILITIES, NEEDS, Model
+from mocapbench.baselines import ABILITIES, IMPLIED, NEEDS, Model
 from mocapbench.benchmark.testing import abilities, imputers, layers
 from mocapbench.benchmark.testing.errors import (
     global_randomness_untouched,
@@ -99,7 +99,7 @@ def names_its_family(subject: Subject) -> None:
 def names_known_abilities_and_needs(subject: Subject) -> None:
     """Check that what the model provides and needs has names that others know."""
     model = subject.build()
-    implied = {ABILITIES[name].implies for name in model.provides & {*ABILITIES}} - {""}
+    implied = {other for name, other in IMPLIED.items() if name in model.provides}
     lacking = sorted(implied - model.provides)
     require(not lacking, "abilities with those that they imply", lacking, "add these to provides")
     for what, names, known in (

@@ -51,9 +51,7 @@ def test_a_task_is_all_that_json_can_hold(name):
     for profile in entry["profiles"].values():
         assert set(profile["cases"]) <= set(entry["cases"])
     assert entry["entrants"]
-    assert {*entry["requires"]} == {
-        ABILITIES[ability].sentence for ability in TASKS.get(name).requires
-    }
+    assert {*entry["requires"]} == {ABILITIES[ability] for ability in TASKS.get(name).requires}
 
 
 def test_a_library_says_which_files_it_reads():
