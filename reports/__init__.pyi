@@ -5,7 +5,7 @@ from .bundle.metric_info import MetricInfo
 from .bundle.model_info import ModelInfo
 from .bundle.origin import Origin
 from .bundle.pictures import Axes, Curve, HeatMaps, Illustration, Motions, Picture, Space
-from .bundle.task_page import Figure, RowNotes, TaskPage
+from .bundle.task_page import Figure, TaskPage
 from .filling.curves import FilledCurve
 from .filling.page import FilledPage, render_filled
 from .page.report import render
@@ -31,7 +31,6 @@ __all__ = [
     "Motions",
     "Origin",
     "Picture",
-    "RowNotes",
     "RunChanges",
     "ScoreChange",
     "Space",

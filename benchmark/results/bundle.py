@@ -87,7 +87,6 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
                 case.columns,
                 synthetic=case.synthetic,
                 averages_references=task.averages_references(case),
-                notes=task.page.notes(case.name),
                 subjects=case.subjects,
             )
             for case in task.cases

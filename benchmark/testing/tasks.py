@@ -53,7 +53,7 @@ def _check_names(task: Task) -> None:
     require(task.version >= 1, "a version from 1", task.version, "raise it when problems change")
     _require_among("published_models", task.page.published_models, labels)
     _require_among("published_metrics", task.page.published_metrics, task.page.metrics)
-    _require_among("rows of the page", task.page.rows, cases)
+    _require_among("published_rows", task.page.published_rows, cases)
     _require_among("illustrated cases", task.page.illustrated, cases)
 
 

@@ -174,10 +174,10 @@ def _reason(
     results: TaskResults, case: CaseLayout, label: str, metric: str, published: PublishedValue
 ) -> str:
     """Return why the two cannot be compared: a reason of the task, the case or the paper."""
-    of_task = results.layout.page.not_comparable
-    of_case = case.notes.not_comparable.get(label)
+    page = results.layout.page
+    of_case = page.not_comparable_rows.get((case.name, label))
     synthetic = "generated motion" if case.synthetic else ""
-    shared = of_task.get((label, metric)) or of_task.get((label, "*"))
+    shared = page.not_comparable.get((label, metric)) or page.not_comparable.get((label, "*"))
     return shared or of_case or published.not_comparable or synthetic
 
 

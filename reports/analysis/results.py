@@ -114,7 +114,7 @@ class TaskResults:
     def published_value(self, case: CaseLayout, label: str, metric: str) -> PublishedValue | None:
         """Return the published counterpart of our estimate, or None where there is none."""
         page = self.layout.page
-        row, name = case.notes.published or "", page.published_metrics.get(metric, "")
+        row, name = page.published_rows.get(case.name, ""), page.published_metrics.get(metric, "")
         return self.published.get((row, name, page.published_models.get(label, "")))
 
     def ranking(self, case: str, metric: str) -> list[str]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from mocapbench.reports.bundle.model_info import ModelInfo
-from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
+from mocapbench.reports.bundle.task_page import TaskPage
 
 __all__ = ["CaseLayout", "Setting", "TaskLayout"]
 
@@ -30,7 +30,6 @@ class CaseLayout:
     averages_references : bool
         Whether the row is a mean over references that have rows of their own. Those rows then
         count in its place wherever cases are averaged or counted.
-    notes : RowNotes
     subjects : tuple of str
         Whose recordings the folds are, in turn: one name where all folds are of one subject. Empty
         where motion is generated, or where all cases and folds are draws on the same recordings.
@@ -40,7 +39,6 @@ class CaseLayout:
     columns: Mapping[str, Setting]
     synthetic: bool = False
     averages_references: bool = False
-    notes: RowNotes = field(default_factory=RowNotes)
     subjects: tuple[str, ...] = ()
 
     def subject(self, fold: int) -> str:
@@ -54,8 +52,8 @@ class CaseLayout:
 
     @property
     def remark(self) -> str:
-        """The remark of the notes; without one, a generated case says that it is generated."""
-        return self.notes.remark or (GENERATED if self.synthetic else "")
+        """What is said under the name: of a generated case that it is generated."""
+        return GENERATED if self.synthetic else ""
 
 
 @dataclass(frozen=True)

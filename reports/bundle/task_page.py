@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from mocapbench.reports.bundle.pictures import Picture
 
-__all__ = ["BY_KIND", "QUESTIONS", "Figure", "RowNotes", "TaskPage"]
+__all__ = ["BY_KIND", "QUESTIONS", "Figure", "TaskPage"]
 
 QUESTIONS: Mapping[str, tuple[str, str]] = {
     "hidden-frames": (
@@ -52,25 +52,6 @@ BY_KIND: Mapping[str, str] = {
 """The question of a task that names none, by the kind of its page."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class RowNotes:
-    """What the tables say about one case beside its numbers.
-
-    Parameters
-    ----------
-    published : str or None
-        The row's name in the published values, None where the paper has no such row.
-    remark : str
-        Shown under the name of the case.
-    not_comparable : mapping of str to str
-        By label, why the row's published value cannot be compared with ours.
-    """
-
-    published: str | None = None
-    remark: str = ""
-    not_comparable: Mapping[str, str] = field(default_factory=dict)
-
-
 class Figure(Protocol):
     """A figure that a page declares and that is drawn from a solved problem.
 
@@ -101,12 +82,12 @@ class TaskPage:
         The title in a word or two, under the heading of the question; by default the title.
     metrics : tuple of str
         The tables to show, in order. The headlines use the first.
-    rows : mapping of str to RowNotes
-        Notes on cases, by their names.
-    published_models, published_metrics : mapping of str to str
-        From our labels and metrics to the paper's names.
+    published_rows, published_models, published_metrics : mapping of str to str
+        From our cases, labels and metrics to the paper's names; what the paper lacks is left out.
     not_comparable : mapping of (label, metric) to str
         Why a published value cannot be compared with ours. The metric ``"*"`` stands for all.
+    not_comparable_rows : mapping of (case, label) to str
+        The same of the values of a label in one case.
     exempt : mapping of str to str
         Labels whose samples need not pass the negative control, and why. The reason completes the
         sentence "label need not pass: it …".
@@ -136,10 +117,11 @@ class TaskPage:
     question: str = ""
     short: str = ""
     metrics: tuple[str, ...]
-    rows: Mapping[str, RowNotes] = field(default_factory=dict)
+    published_rows: Mapping[str, str] = field(default_factory=dict)
     published_models: Mapping[str, str] = field(default_factory=dict)
     published_metrics: Mapping[str, str] = field(default_factory=dict)
     not_comparable: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    not_comparable_rows: Mapping[tuple[str, str], str] = field(default_factory=dict)
     exempt: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     crossed: tuple[str, str] | None = None
@@ -156,7 +138,3 @@ class TaskPage:
             raise ValueError(
                 f"question: expected one of {', '.join(QUESTIONS)}, got {self.question!r}"
             )
-
-    def notes(self, case: str) -> RowNotes:
-        """Return the notes on ``case``; empty notes where the page has none."""
-        return self.rows.get(case, RowNotes())

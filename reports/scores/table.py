@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -235,11 +236,12 @@ def _published_rows(
     """
     places = results.decimals.get(metric, FEWEST_DECIMALS)
     for model, printed in _published_models(results, metric).items():
-        values = [_printed_value(case, printed) for case in counting]
+        find = partial(_printed_value, results.layout.page.published_rows, printed)
+        values = [*map(find, counting)]
         whole = [value for value in values if value is not None]
         if whole:
             mean = float(np.mean(whole)) if len(whole) == len(values) else None
-            cells = [_published_cell(_printed_value(case, printed), places) for case in shown]
+            cells = [_published_cell(find(case), places) for case in shown]
             yield ScoreRow(
                 f"{model} (published)",
                 "published",
@@ -261,8 +263,10 @@ def _published_models(results: TaskResults, metric: str) -> Mapping[str, dict[st
     return models
 
 
-def _printed_value(case: CaseLayout, printed: Mapping[str, float]) -> float | None:
-    return None if case.synthetic else printed.get(case.notes.published or "")
+def _printed_value(
+    rows: Mapping[str, str], printed: Mapping[str, float], case: CaseLayout
+) -> float | None:
+    return None if case.synthetic else printed.get(rows.get(case.name, ""))
 
 
 def _published_cell(value: float | None, places: int) -> Cell:

@@ -16,7 +16,7 @@ from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout, TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.pictures import Axes, Curve, Illustration, Motions
-from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
+from mocapbench.reports.bundle.task_page import TaskPage
 
 METRICS = {
     info.name: info
@@ -55,6 +55,7 @@ TOY = TaskLayout(
             "but the last, of which 5 of 50 points per output are visible."
         ),
         metrics=("mse", "smse_pooled", "msll"),
+        published_rows={f"test {number}": f"test {number}" for number in range(1, 10)},
         published_models={"mohgp-3": "MOHGP", "moa-3": "MOA"},
         published_metrics={"mse": "MSE", "smse_pooled": "SMSE", "msll": "MSLL"},
         remarks=("Tests 4 and 7 of the thesis carry identical MOHGP values.",),
@@ -63,7 +64,6 @@ TOY = TaskLayout(
         CaseLayout(
             f"test {number}",
             {"noise": noise, "outputs": outputs, "children": children},
-            notes=RowNotes(published=f"test {number}"),
         )
         for number, (noise, (outputs, children)) in enumerate(
             ((noise, size) for noise in (0.001, 0.01, 0.1) for size in ((3, 5), (6, 6), (3, 10))), 1
@@ -81,6 +81,7 @@ WALKING = TaskLayout(
         reference="thesis §5.1.2, Tables 10–11, Figure 20",
         description="Three walks; the first has 40, 30, 20 or 10 of its 90 frames visible.",
         metrics=("smse_pooled", "mse", "msll"),
+        published_rows={f"observed {n}": f"observed {n}" for n in (40, 30, 20, 10)},
         published_models={
             **{"mohgp-1": "MOHGP", "mohgp-3": "MOHGP"},
             **{"moa-1": "MOA", "moa-3": "MOA"},
@@ -89,19 +90,16 @@ WALKING = TaskLayout(
         remarks=("The thesis does not print its 39 channels.",),
     ),
     cases=(
-        *(
-            CaseLayout(f"observed {n}", {"observed": n}, notes=RowNotes(published=f"observed {n}"))
-            for n in (40, 30, 20, 10)
-        ),
+        *(CaseLayout(f"observed {n}", {"observed": n}) for n in (40, 30, 20, 10)),
         CaseLayout(
             "generated 20",
             {"observed": 20},
             synthetic=True,
-            notes=RowNotes(remark="embedded gait"),
         ),
     ),
     labels=("mohgp-1", "mohgp-3", "moa-1", "moa-3", "gp-independent", "cubic-spline"),
 )
+GROUPS = ("four-walkers", "three-walkers")
 RECORDINGS = ("35-03", "12-02", "16-21", "12-03", "07-01", "07-02", "08-01", "08-02")
 FRAMES = TaskLayout(
     name="missing-frames",
@@ -110,6 +108,7 @@ FRAMES = TaskLayout(
         reference="GPDM §5.3, Table 2",
         description=("31 whole frames of a walk are hidden; training walks are of other subjects."),
         metrics=("rms_per_frame",),
+        published_rows={f"{name} {group}": name for group in GROUPS for name in RECORDINGS},
         published_models={"cubic-spline": "cubic-spline", "knn": "KNN-15"},
         published_metrics={"rms_per_frame": "RMS per frame"},
         not_comparable={("knn", "*"): "the paper does not print its KNN objective"},
@@ -118,9 +117,8 @@ FRAMES = TaskLayout(
         CaseLayout(
             f"{name} {group}",
             {"test": name, "training": group},
-            notes=RowNotes(published=name),
         )
-        for group in ("four-walkers", "three-walkers")
+        for group in GROUPS
         for name in RECORDINGS
     ),
     labels=("cubic-spline", "knn", "aligned-window", "gp-independent"),

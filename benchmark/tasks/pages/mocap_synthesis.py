@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
 
 from mocapbench.benchmark.figures.coregionalisation import draw_coregionalisation
 from mocapbench.benchmark.figures.motions.sampled import draw_sampled_motion
 from mocapbench.benchmark.tasks.pages.joints import JOINT_GROUPS
 from mocapbench.benchmark.tasks.thesis_recordings import KICKS, WALKS
-from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
+from mocapbench.reports.bundle.task_page import TaskPage
 
 __all__ = ["EXAGGERATED_PAGE", "SOCCER_PAGE", "WALKING_PAGE"]
 
@@ -35,25 +34,8 @@ _REMARKS = (
 )
 
 
-def _rows(
-    references: Mapping[str, str],
-    several: tuple[str, ...],
-    suffix: str = "",
-    not_comparable: Mapping[str, str] | None = None,
-) -> dict[str, RowNotes]:
-    """Return the notes of the rows on single references, and on several at once."""
-    reasons = not_comparable or {}
-    single = {
-        f"{name}{suffix}": RowNotes(published=name, not_comparable=reasons) for name in references
-    }
-    return {
-        **single,
-        **{f"{name}{suffix}": RowNotes(not_comparable=reasons) for name in several},
-    }
-
-
-_SEVERAL_WALKS = ("all five", "without 38(2)")
-_SEVERAL_KICKS = ("all five", "unseen only")
+_FROM_THREE = " from three walks"
+_WALKS = (*WALKS, "all five", "without 38(2)")
 _TRAINED_ON_TWO = "the paper trained this model on two walks"
 _TRAINED_ON_THREE = "the paper trained this model on three walks"
 
@@ -69,14 +51,14 @@ WALKING_PAGE = TaskPage(
     kind="synthesise",
     question="invent-motion",
     metrics=_METRICS,
-    rows={
-        **_rows(WALKS, _SEVERAL_WALKS, not_comparable={"mohgp-1": _TRAINED_ON_THREE}),
-        **_rows(
-            WALKS,
-            _SEVERAL_WALKS,
-            " from three walks",
-            not_comparable=dict.fromkeys(_THREE_COMPONENTS, _TRAINED_ON_TWO),
-        ),
+    published_rows={f"{walk}{end}": walk for end in ("", _FROM_THREE) for walk in WALKS},
+    not_comparable_rows={
+        **{(walk, "mohgp-1"): _TRAINED_ON_THREE for walk in _WALKS},
+        **{
+            (f"{walk}{_FROM_THREE}", label): _TRAINED_ON_TWO
+            for walk in _WALKS
+            for label in _THREE_COMPONENTS
+        },
     },
     published_models={"mohgp-1": "MOHGP-ICM", **_THREE_COMPONENTS},
     published_metrics=_PUBLISHED_METRICS,
@@ -99,7 +81,7 @@ EXAGGERATED_PAGE = TaskPage(
     kind="synthesise",
     question="invent-motion",
     metrics=_METRICS,
-    rows=_rows(WALKS, _SEVERAL_WALKS),
+    published_rows={walk: walk for walk in WALKS},
     published_models=_THREE_COMPONENTS,
     published_metrics=_PUBLISHED_METRICS,
     remarks=_REMARKS,
@@ -121,10 +103,7 @@ SOCCER_PAGE = TaskPage(
     kind="synthesise",
     question="invent-motion",
     metrics=_METRICS,
-    rows={
-        **_rows(KICKS, _SEVERAL_KICKS),
-        **_rows(KICKS, _SEVERAL_KICKS, " from short kicks"),
-    },
+    published_rows={f"{kick}{end}": kick for end in ("", " from short kicks") for kick in KICKS},
     published_models=_THREE_COMPONENTS,
     published_metrics=_PUBLISHED_METRICS,
     remarks=(

@@ -7,7 +7,7 @@ from functools import partial
 from mocapbench.benchmark.figures.filled_channels import draw_filled_channels
 from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
 from mocapbench.benchmark.figures.motions.scaled_values import scaled_angles
-from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
+from mocapbench.reports.bundle.task_page import TaskPage
 
 __all__ = ["PAGE"]
 
@@ -23,7 +23,7 @@ PAGE = TaskPage(
     ),
     question="other-channels",
     metrics=("rms_angle", "cumulative_scaled_error", "coverage_95", "msll", "crps"),
-    rows={name: RowNotes(published=name) for name in ("right leg", "upper body")},
+    published_rows={name: name for name in ("right leg", "upper body")},
     published_models={"nn-scaled": "scaled NN", "nn-radians": "NN"},
     published_metrics={
         "rms_angle": "RMS angle (deg)",

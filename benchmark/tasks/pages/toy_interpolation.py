@@ -6,7 +6,7 @@ from functools import partial
 
 from mocapbench.benchmark.figures.filled_channels import draw_filled_channels
 from mocapbench.benchmark.figures.trend import draw_trends
-from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
+from mocapbench.reports.bundle.task_page import TaskPage
 
 __all__ = ["MUCH_NOISE_PAGE", "ONE_INCOMPLETE_PAGE", "TOO_FEW_COMPONENTS_PAGE"]
 
@@ -30,8 +30,8 @@ _BELOW_THE_NOISE = (
 )
 
 
-def _rows(n_tests: int) -> dict[str, RowNotes]:
-    return {f"test {n}": RowNotes(published=f"test {n}") for n in range(1, n_tests + 1)}
+def _rows(n_tests: int) -> dict[str, str]:
+    return {f"test {n}": f"test {n}" for n in range(1, n_tests + 1)}
 
 
 ONE_INCOMPLETE_PAGE = TaskPage(
@@ -46,7 +46,7 @@ ONE_INCOMPLETE_PAGE = TaskPage(
     ),
     question="scattered-samples",
     metrics=_METRICS,
-    rows=_rows(9),
+    published_rows=_rows(9),
     published_models={"mohgp-3": "MOHGP", "moa-3": "MOA"},
     published_metrics=_PUBLISHED_METRICS,
     remarks=_REMARKS,
@@ -66,7 +66,7 @@ TOO_FEW_COMPONENTS_PAGE = TaskPage(
     ),
     question="scattered-samples",
     metrics=_METRICS,
-    rows=_rows(6),
+    published_rows=_rows(6),
     published_models={"mohgp-1": "MOHGP", "moa-3": "MOA"},
     published_metrics=_PUBLISHED_METRICS,
     remarks=(*_REMARKS, _ASSUMED),
@@ -86,7 +86,7 @@ MUCH_NOISE_PAGE = TaskPage(
     ),
     question="scattered-samples",
     metrics=_METRICS,
-    rows=_rows(4),
+    published_rows=_rows(4),
     published_models={"mohgp-1": "MOHGP", "moa-3": "MOA"},
     published_metrics=_PUBLISHED_METRICS,
     not_comparable=dict.fromkeys([("mohgp-1", "*"), ("moa-3", "*")], _BELOW_THE_NOISE),

@@ -30,7 +30,7 @@ def test_a_layout_has_the_page_of_its_task_and_a_row_per_case(made):
         (case.name, case.columns, case.synthetic) for case in TASK.cases
     ]
     assert [case.subjects for case in layout.cases] == [("07",), ()]
-    assert [case.notes.published for case in layout.cases] == ["subject 07 walk", None]
+    assert layout.page.published_rows == {layout.cases[0].name: "subject 07 walk"}
 
 
 def test_metrics_of_others_follow_those_of_the_page_where_they_were_scored(monkeypatch):

@@ -8,7 +8,6 @@ import pytest
 
 from mocapbench.benchmark import TASKS, Case, Entrant, Profile, Task, archive_at
 from mocapbench.benchmark.testing import ConformanceError, check_task
-from mocapbench.reports import RowNotes
 
 TASK = TASKS.get("toy-interpolation-1")
 
@@ -118,7 +117,7 @@ def test_the_fault_of_a_task_is_named(field, value, complaint):
         ("metrics", ("msee",), "metrics of its page: unknown metric 'msee': did you mean .*mse"),
         ("published_models", {"me": "ME"}, r"published_models among .* got \['me'\]"),
         ("published_metrics", {"pit": "PIT"}, r"published_metrics among .* got \['pit'\]"),
-        ("rows", {"test 0": RowNotes()}, r"rows of the page among .* got \['test 0'\]"),
+        ("published_rows", {"test 0": "row"}, r"published_rows among .* got \['test 0'\]"),
         ("illustrated", ("test 0",), r"illustrated cases among .* got \['test 0'\]"),
     ],
 )
@@ -131,7 +130,7 @@ def test_a_task_that_cannot_be_tried_without_recordings_is_refused(tmp_path, mon
     monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path))
     case = Case("test 1", TASK.cases[0].problem, given=("cmu:02_01",))
     profiles = {"smoke": Profile(("test 1",), 1)}
-    page = replace(TASK.page, rows={})
+    page = replace(TASK.page, published_rows={})
     task = replace(TASK, cases=(case,), profiles=profiles, page=page)
     with pytest.raises(ConformanceError, match="add one on generated data"):
         check_task(task, archive_at(tmp_path))
@@ -141,7 +140,7 @@ def test_training_that_is_named_is_the_same_in_all_folds():
     case = replace(TASKS.get("missing-frames").case("synthetic 1"), training="walkers")
     profiles = {"quick": Profile((case.name,), folds=2)}
     task = replace(TASKS.get("missing-frames"), cases=(case,), profiles=profiles)
-    task = replace(task, page=replace(task.page, illustrated=(), rows={}))
+    task = replace(task, page=replace(task.page, illustrated=(), published_rows={}))
     check_task(task)
     wrong = replace(case, problem=partial(_other_training, case.problem))
     with pytest.raises(ConformanceError, match="the training recordings of another fold"):

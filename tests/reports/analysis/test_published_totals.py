@@ -10,8 +10,6 @@ from mocapbench.reports.analysis.comparisons import (
     every_comparison,
 )
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.bundle.task_page import RowNotes
 from mocapbench.reports.paper.published import every_value, published_values
 
 NAN = float("nan")
@@ -58,12 +56,12 @@ MODELS = {"mohgp-1": "MOHGP", "mohgp-3": "MOHGP"}
 
 def walking(small, scores, *, labels=("mohgp-1", "mohgp-3"), reasons=None):
     """Return results of one row that is the paper's, whose two entrants stand for one model."""
-    notes = RowNotes(published="observed 40", not_comparable=reasons or {})
     bundle = small(
         {"row": {label: [scores[label]] for label in labels}},
         metric="smse_pooled",
         task="walking-interpolation",
-        cases=(CaseLayout("row", {}, notes=notes),),
+        published_rows={"row": "observed 40"},
+        not_comparable_rows={("row", label): why for label, why in (reasons or {}).items()},
         published_models=MODELS,
         published_metrics={"smse_pooled": "SMSE"},
     )

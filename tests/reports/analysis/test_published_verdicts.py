@@ -14,7 +14,6 @@ from mocapbench.reports.analysis.comparisons import (
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
-from mocapbench.reports.bundle.task_page import RowNotes
 from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.tables.letters import letters
 from mocapbench.reports.tables.verdicts import verdict_table
@@ -133,7 +132,8 @@ def spline_on_35_03(small, folds, *, synthetic=False, **fields):
         {"row": {"cubic-spline": folds}},
         metric="rms_per_frame",
         task="missing-frames",
-        cases=(CaseLayout("row", {}, synthetic=synthetic, notes=RowNotes(published="35-03")),),
+        cases=(CaseLayout("row", {}, synthetic=synthetic),),
+        published_rows={"row": "35-03"},
         published_models={"cubic-spline": "cubic-spline"},
         published_metrics={"rms_per_frame": "RMS per frame"},
         **fields,
@@ -215,10 +215,9 @@ def test_an_erratum_is_marked_with_the_letter_that_it_has_in_all_tables_of_the_t
 
 def test_a_row_may_have_a_reason_of_its_own(small):
     bundle = spline_on_35_03(small, [62.98])
-    (case,) = bundle.layouts[0].cases
-    notes = dataclasses.replace(case.notes, not_comparable={"cubic-spline": "another training set"})
-    reasoned = dataclasses.replace(case, notes=notes)
-    layout = dataclasses.replace(bundle.layouts[0], cases=(reasoned,))
+    reasons = {("row", "cubic-spline"): "another training set"}
+    page = dataclasses.replace(bundle.layouts[0].page, not_comparable_rows=reasons)
+    layout = dataclasses.replace(bundle.layouts[0], page=page)
     (pair,) = comparisons(
         task_results(dataclasses.replace(bundle, layouts=(layout,)), layout), "rms_per_frame"
     )
@@ -229,7 +228,7 @@ def test_a_remark_on_the_published_value_is_a_reason(small):
     bundle = small(
         {"row": {"replay": [1.0]}},
         task="control-similarity",
-        cases=(CaseLayout("row", {}, notes=RowNotes(published="12(1) vs 16(15)")),),
+        published_rows={"row": "12(1) vs 16(15)"},
         published_metrics={"mse": "MCC"},
         published_models={"replay": "real"},
     )

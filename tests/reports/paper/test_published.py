@@ -28,7 +28,7 @@ def test_within_a_task_the_papers_names_are_enough(shipped):
 def test_every_row_of_the_tasks_has_a_place_in_their_layouts(bundle):
     averages = {"AVG."}
     for layout in bundle.layouts:
-        cases = {case.notes.published for case in layout.cases} | averages
+        cases = {*layout.page.published_rows.values()} | averages
         metrics = set(layout.page.published_metrics.values())
         models = {model for _, _, model in published_values(layout.name)}
         assert set(layout.page.published_models.values()) <= models

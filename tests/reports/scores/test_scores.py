@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.standings import Place, standings
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.bundle.task_page import RowNotes
 from mocapbench.reports.figures.scores.strips import draw_strips
 from mocapbench.reports.figures.strip import strip_scale
 from mocapbench.reports.figures.styles import model_styles
@@ -206,18 +205,17 @@ def test_the_papers_other_models_come_last_with_their_printed_values(bundle):
     others = [row for row in table["rows"] if row.kind == "published"]
     models = ("GPDM-MAP", "B-GPDM", "GPDM-fixed-alpha", "GPDM-two-stage-MAP")
     assert [row.label for row in others] == [f"{model} (published)" for model in models]
-    printed, cases = published_values("missing-frames"), bundle.layouts[2].cases
+    printed, rows = published_values("missing-frames"), bundle.layouts[2].page.published_rows
     for row_, model in zip(others, models, strict=True):
         for (case_name, _), found in zip(table["heads"], row_.cells, strict=True):
-            name = next(case.notes.published for case in cases if case.name == case_name)
-            assert found.value == printed[name, "RMS per frame", model].value
+            assert found.value == printed[rows[case_name], "RMS per frame", model].value
 
 
 def test_a_paper_that_lacks_a_case_has_no_mean(small):
     bundle = small(
         {"one": {"a": [8.0]}, "two": {"a": [9.0]}},
         task="toy-synthesis",
-        cases=(CaseLayout("one", {}, notes=RowNotes(published="test 1")), CaseLayout("two", {})),
+        published_rows={"one": "test 1"},
         published_metrics={"mse": "MCC"},
         published_models={"a": "MOHGP"},
     )

@@ -2,7 +2,6 @@ import pytest
 
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.bundle.task_page import RowNotes
 from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.page.sections import task_section
 
@@ -17,14 +16,10 @@ def view(small):
         values,
         task="control-similarity",
         cases=tuple(
-            CaseLayout(
-                pair,
-                dict(zip("ab", pair.split(" vs "), strict=True)),
-                notes=RowNotes(published=pair),
-            )
-            for pair in PAIRS
+            CaseLayout(pair, dict(zip("ab", pair.split(" vs "), strict=True))) for pair in PAIRS
         ),
         crossed=("a", "b"),
+        published_rows={pair: pair for pair in PAIRS},
         published_models={"replay": "real"},
         published_metrics={"mse": "MCC"},
     )

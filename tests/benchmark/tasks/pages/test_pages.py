@@ -17,7 +17,7 @@ from mocapbench.benchmark import (
     plan,
 )
 from mocapbench.benchmark.runs.request import entrants
-from mocapbench.reports import RowNotes, TaskPage
+from mocapbench.reports import TaskPage
 
 NAMES = TASKS.names()
 KINDS = {
@@ -32,7 +32,7 @@ ANOTHER = TaskPage(
     description="Another description.",
     kind="impute",
     metrics=("crps",),
-    rows={"test 1": RowNotes(published="test 9", remark="Another remark.")},
+    published_rows={"test 1": "test 9"},
     remarks=("Another remark.",),
 )
 
@@ -46,7 +46,8 @@ def _names(values):
 def test_every_case_that_a_page_names_exists(name):
     task = TASKS.get(name)
     cases = {case.name for case in task.cases}
-    assert set(task.page.rows) <= cases
+    assert set(task.page.published_rows) <= cases
+    assert {case for case, _ in task.page.not_comparable_rows} <= cases
     assert set(task.page.illustrated) <= cases
 
 
@@ -57,7 +58,7 @@ def test_every_entrant_that_a_page_names_takes_part(name):
     assert set(page.published_models) <= labels
     assert set(page.exempt) <= labels
     assert {label for label, _ in page.not_comparable} <= labels
-    assert {label for notes in page.rows.values() for label in notes.not_comparable} <= labels
+    assert {label for _, label in page.not_comparable_rows} <= labels
     fields = [vars(figure) for figure in page.figures]
     assert _names(f[key] for f in fields for key in ("label", "labels") if key in f) <= labels
 
