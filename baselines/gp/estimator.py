@@ -48,7 +48,6 @@ from mocapbench.baselines.gp.solvers.threads import thread_mapper
 from mocapbench.baselines.gp.training.coordinates import Coordinates
 from mocapbench.baselines.gp.training.maximum_likelihood import (
     Budget,
-    Iteration,
     Search,
     maximise,
 )
@@ -242,11 +241,13 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
             )
         return self.parameters_
 
-    def _print(self, n_searches: int, search: int, step: Iteration) -> None:
-        log_likelihood = step.log_likelihood + self.scaling_.log_jacobian
+    def _print(
+        self, n_searches: int, search: int, iteration: int, log_likelihood: float, seconds: float
+    ) -> None:
+        of_data = log_likelihood + self.scaling_.log_jacobian
         print(
-            f"search {search + 1} of {n_searches}, iteration {step.iteration}: "
-            f"log-likelihood {log_likelihood:.3f}, {step.seconds:.1f} s"
+            f"search {search + 1} of {n_searches}, iteration {iteration}: "
+            f"log-likelihood {of_data:.3f}, {seconds:.1f} s"
         )
 
     def _check_parameters(self) -> None:
@@ -539,5 +540,5 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         return list(self.recordings_).index(recording.name)
 
 
-def _report_nothing(search: int, step: Iteration) -> None:
+def _report_nothing(*iteration: float) -> None:
     """Report no iteration."""

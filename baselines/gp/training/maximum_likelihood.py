@@ -11,7 +11,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
-from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import Bounds, minimize
@@ -21,7 +20,7 @@ from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
 from mocapbench.baselines.gp.training.coordinates import Coordinates
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Budget", "Iteration", "Likelihood", "Report", "Search", "maximise"]
+__all__ = ["Budget", "Likelihood", "Report", "Search", "maximise"]
 
 
 MEMORY = 200
@@ -57,17 +56,9 @@ class Budget:
     max_seconds: float | None
 
 
-class Iteration(NamedTuple):
-    """The state of a search after an iteration, with evaluations and seconds since it began."""
-
-    iteration: int
-    log_likelihood: float
-    n_evaluations: int
-    seconds: float
-
-
-Report = Callable[[int, Iteration], None]
-"""Called after every iteration with the index of the search."""
+Report = Callable[[int, int, float, float], None]
+"""Called after every iteration with the index of the search, the number of its iterations, the best
+log-likelihood so far, and the seconds since the search began."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +73,8 @@ class Search:
         The log-likelihood there.
     n_evaluations : int
         The number of evaluations.
-    trace : tuple of Iteration
-        Every iteration, with the best log-likelihood so far.
+    n_iterations : int
+        The number of iterations.
     converged : bool
         Whether the search ended because its tolerance was met.
     message : str
@@ -93,14 +84,9 @@ class Search:
     parameters: Parameters
     log_likelihood: float
     n_evaluations: int
-    trace: tuple[Iteration, ...]
+    n_iterations: int
     converged: bool
     message: str
-
-    @property
-    def n_iterations(self) -> int:
-        """The number of iterations."""
-        return len(self.trace)
 
 
 def maximise(
@@ -123,7 +109,7 @@ def maximise(
     budget : Budget
         When to stop.
     report : callable
-        Called after every iteration with the index of the start and the `Iteration`.
+        Called after every iteration.
 
     Returns
     -------
@@ -157,13 +143,12 @@ class _Objective:
         likelihood: Likelihood,
         coordinates: Coordinates,
         deadline: float,
-        report: Callable[[Iteration], None],
+        report: Callable[[int, float, float], None],
     ) -> None:
         self.likelihood, self.coordinates = likelihood, coordinates
         self.deadline, self.report = deadline, report
         self.best, self.best_value = np.empty(0), -np.inf
-        self.begun, self.n_evaluations = perf_counter(), 0
-        self.trace: list[Iteration] = []
+        self.begun, self.n_evaluations, self.n_iterations = perf_counter(), 0, 0
 
     def __call__(self, point: Array) -> tuple[float, Array]:
         if self.n_evaluations and perf_counter() > self.deadline:
@@ -175,11 +160,9 @@ class _Objective:
         return -value, -self.coordinates.pull_back(point, gradient)
 
     def end_iteration(self, xk: Array) -> None:  # noqa: ARG002
-        """Record and report the state of the search; scipy asks for the argument ``xk``."""
-        seconds = perf_counter() - self.begun
-        step = Iteration(len(self.trace) + 1, self.best_value, self.n_evaluations, seconds)
-        self.trace.append(step)
-        self.report(step)
+        """Count and report an iteration; scipy asks for the argument ``xk``."""
+        self.n_iterations += 1
+        self.report(self.n_iterations, self.best_value, perf_counter() - self.begun)
 
     def end(self, converged: bool, message: str) -> Search:
         """Return the result of the search."""
@@ -187,7 +170,7 @@ class _Objective:
             self.coordinates.at(self.best),
             self.best_value,
             self.n_evaluations,
-            tuple(self.trace),
+            self.n_iterations,
             converged,
             str(message),
         )
@@ -211,7 +194,7 @@ def _search(objective: _Objective, start: Array, bounds: Bounds, budget: Budget)
                 bounds=bounds,
                 callback=objective.end_iteration,
                 options={
-                    "maxiter": budget.max_iter - len(objective.trace),
+                    "maxiter": budget.max_iter - objective.n_iterations,
                     "maxfun": MAX_LINE_SEARCH * budget.max_iter,
                     "maxls": MAX_LINE_SEARCH,
                     "ftol": budget.tol,
