@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from mocapbench.benchmark.figures.motions.placing import PlacesJoints, place_joints
-from mocapbench.benchmark.figures.motions.played import ShownWindow, build_player, choose_entrants
+from mocapbench.benchmark.figures.motions.played import build_player, choose_entrants, shown_part
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import ImputeProblem, Predictions
 from mocapbench.reports import Motions
@@ -44,14 +44,14 @@ def draw_filled_motion(
         A sentence to add to the caption, with a blank before it.
     """
     body, given = find_body(solved), solved.problem.given[0]
-    window = ShownWindow(given.times, np.asarray((~given.visible).any(axis=1)))
-    shown, truth = given.frames(np.r_[window.part]), solved.problem.truth[0][window.part]
+    part = shown_part(given)
+    shown, truth = given.frames(np.r_[part]), solved.problem.truth[0][part]
     if body is None or not np.isfinite(truth).all():
         return ()
     entrants = choose_entrants(solved, n_most)
     means = [solved.solutions[label][0].mean for label in entrants[0]]
-    filled = [np.where(shown.visible, truth, mean[window.part]) for mean in means]
+    filled = [np.where(shown.visible, truth, mean[part]) for mean in means]
     true, *made = place_joints(body, shown, [truth, *filled])
     pairs = [("truth", true, positions) for positions in made]
     caption = f"{given.name}, shaded where something is hidden.{remark}"
-    return (build_player(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),)
+    return (build_player(solved, body, given, entrants=entrants, pairs=pairs, caption=caption),)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,17 +12,17 @@ from mocapbench.basics.words import format_count
 from mocapbench.benchmark.figures.motions.placing import PlacesJoints
 from mocapbench.benchmark.figures.motions.side_view import side_view
 from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.datasets import FrameByJointBy3, Frames
+from mocapbench.datasets import FrameByJointBy3, Frames, Recording
 from mocapbench.reports import Motions
 
 __all__ = [
     "LONGEST",
     "Chosen",
     "Pair",
-    "ShownWindow",
     "build_player",
     "choose_entrants",
     "shown_frames",
+    "shown_part",
 ]
 
 Chosen = tuple[tuple[str, ...], str, str]
@@ -61,42 +61,12 @@ _RATE = 30.0
 _TOLERANCE = 1.001  # 59.99 frames per second are 60
 
 
-class ShownWindow(NamedTuple):
-    """The part of a recording that a player shows.
-
-    Parameters
-    ----------
-    times : ndarray of shape (N,)
-        Of all frames, in seconds.
-    hidden : ndarray of bool of shape (N,)
-        Of which frames something is hidden.
-    """
-
-    times: Frames
-    hidden: NDArray[np.bool_]
-
-    @property
-    def rows(self) -> NDArray[np.intp]:
-        """The frames to show; see `shown_frames`."""
-        return shown_frames(self.times, self.hidden)
-
-    @property
-    def part(self) -> slice:
-        """The first to the last of them, with all between."""
-        rows = self.rows
-        return slice(int(rows[0]), int(rows[-1]) + 1)
-
-
-def shown_frames(times: Frames, hidden: NDArray[np.bool_]) -> NDArray[np.intp]:
+def shown_frames(recording: Recording) -> NDArray[np.intp]:
     """Return which frames to show: at most `LONGEST`, with the first hidden ones in their middle.
 
-    Parameters
-    ----------
-    times : ndarray of shape (N,)
-        In seconds.
-    hidden : ndarray of bool of shape (N,)
-        All False where nothing is hidden.
+    A frame counts as hidden if any of its entries is.
     """
+    times, hidden = recording.times, _find_hidden(recording)
     step = max(int(_TOLERANCE * _frame_rate(times) / _RATE), 1)
     rows = np.arange(0, len(times), step)
     first = int(np.argmax(hidden))
@@ -104,6 +74,16 @@ def shown_frames(times: Frames, hidden: NDArray[np.bool_]) -> NDArray[np.intp]:
     middle = (times[first] + times[stop - 1]) / 2.0
     start = np.clip(middle - LONGEST / 2.0, times[0], max(times[-1] - LONGEST, times[0]))
     return np.asarray(rows[(times[rows] >= start) & (times[rows] <= start + LONGEST)])
+
+
+def _find_hidden(recording: Recording) -> NDArray[np.bool_]:
+    return np.asarray(~recording.visible.all(axis=1))
+
+
+def shown_part(recording: Recording) -> slice:
+    """Return the first to the last of the frames to show, with all between."""
+    rows = shown_frames(recording)
+    return slice(int(rows[0]), int(rows[-1]) + 1)
 
 
 def _frame_rate(times: Frames) -> float:
@@ -118,13 +98,13 @@ def _end_of_run(hidden: NDArray[np.bool_], first: int) -> int:
 
 Pair = tuple[str, FrameByJointBy3, FrameByJointBy3]
 """The name of a truth, and the joints (P, J, 3) of it and of what an entrant made of it, in the
-`ShownWindow.part` and in centimetres."""
+`shown_part` and in centimetres."""
 
 
 def build_player(
     solved: Solved[Any, Any],
     body: PlacesJoints,
-    window: ShownWindow,
+    given: Recording,
     *,
     entrants: Chosen,
     pairs: Sequence[Pair],
@@ -136,7 +116,8 @@ def build_player(
     ----------
     solved : Solved
     body : PlacesJoints
-    window : ShownWindow
+    given : Recording
+        As models saw it, or as long as what they invented.
     entrants : Chosen
     pairs : sequence of Pair
         In the order of the entrants.
@@ -144,18 +125,19 @@ def build_player(
         What the figure shows; how it was cut and who takes part is added.
     """
     joints = tuple(segment.name for segment in body.skeleton.segments)
-    rows, shown = window.rows, window.times[window.rows]
+    rows = shown_frames(given)
+    shown = given.times[rows]
     kept = rows - rows[0]
     seen = [side_view(truth[kept], made[kept], joints) for _, truth, made in pairs]
     names, (labels, beside, phrase) = [name for name, _, _ in pairs], entrants
     return Motions(
         task=solved.task,
         title="Motion",
-        caption=f"{caption} {_extent(window.times, shown)}. {phrase}.",
+        caption=f"{caption} {_extent(given.times, shown)}. {phrase}.",
         interval=float(np.diff(shown).mean()),
         joints=joints,
         parents=body.skeleton.parents,
-        hidden=window.hidden[rows],
+        hidden=_find_hidden(given)[rows],
         truths={name: truth for name, (truth, _) in zip(names, seen, strict=True)},
         motions={label: made for label, (_, made) in zip(labels, seen, strict=True)},
         against=dict(zip(labels, names, strict=True)),

@@ -12,9 +12,9 @@ from mocapbench.baselines import SampleByFrameByChannel
 from mocapbench.benchmark.figures.motions.placing import on_the_spot, place_joints
 from mocapbench.benchmark.figures.motions.played import (
     Pair,
-    ShownWindow,
     build_player,
     choose_entrants,
+    shown_part,
 )
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
@@ -41,10 +41,11 @@ def draw_sampled_motion(
     if body is None:
         return ()
     entrants = choose_entrants(solved, n_most)
-    window = ShownWindow(problem.times, np.zeros(len(problem.times), dtype=bool))
+    whole = replace(problem.train[0], times=problem.times, values=problem.references[0])
+    part = shown_part(whole)
     samples = [solved.solutions[label][0] for label in entrants[0]]
-    values = [motion[window.part] for motion in (*problem.references, *samples)]
-    like = replace(problem.train[0], times=problem.times[window.part], values=values[0])
+    values = [motion[part] for motion in (*problem.references, *samples)]
+    like = whole.frames(np.r_[part])
     motions = [on_the_spot(motion) for motion in place_joints(body, like, values)]
     references, made = motions[: -len(samples)], motions[-len(samples) :]
     pairs = [_beside_nearest(sample, references) for sample in made]
@@ -53,7 +54,7 @@ def draw_sampled_motion(
         f"joints are nearest on average; all on the body of {like.name}, without the path on "
         "the floor."
     )
-    return (build_player(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),)
+    return (build_player(solved, body, whole, entrants=entrants, pairs=pairs, caption=caption),)
 
 
 def _beside_nearest(sample: FrameByJointBy3, references: Sequence[FrameByJointBy3]) -> Pair:

@@ -9,7 +9,7 @@ from mocapbench.benchmark import JointAngles, Solved
 from mocapbench.benchmark.figures.motions.placing import on_the_spot, place_joints
 from mocapbench.benchmark.figures.motions.played import LONGEST, choose_entrants, shown_frames
 from mocapbench.benchmark.figures.motions.side_view import side_view
-from mocapbench.datasets import GaitLibrary, hlm_features
+from mocapbench.datasets import GaitLibrary, Recording, hlm_features
 
 JOINTS = ("root", "lfemur", "rfemur", "head")
 
@@ -21,7 +21,8 @@ def test_the_window_is_short_even_and_has_the_gap(rate, n, start, length):
     times, hidden = np.arange(n) / rate, np.zeros(n, dtype=bool)
     first = int(start * (n - 1))
     hidden[first : first + 1 + int(length * n)] = True
-    rows = shown_frames(times, hidden)
+    still = Recording("still", times, np.where(hidden, np.nan, 0.0)[:, None], ("hip",), ("deg",))
+    rows = shown_frames(still)
     shown = times[rows]
     assert shown[-1] - shown[0] <= LONGEST + 1e-9
     assert len(set(np.diff(rows))) <= 1
