@@ -27,7 +27,7 @@ from .inspection.explanation import explain
 from .inspection.forecast import forecast_text, lacking, lacking_line, plan_table
 from .inspection.left_out import left_out_lines
 from .inspection.output import explanation_table, state_lines, state_table
-from .inspection.recordings import DataRequest, data_totals, next_data_step
+from .inspection.recordings import data_totals, next_data_step
 from .inspection.state import RunState, run_state
 from .merging.merge import merge
 from .missing_values import choose_missing_rule
@@ -81,7 +81,6 @@ __all__ = [
     "Case",
     "ClusterProblem",
     "Clusters",
-    "DataRequest",
     "Entrant",
     "ExitCode",
     "ImputeProblem",

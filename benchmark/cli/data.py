@@ -61,7 +61,7 @@ def status(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
     archive, console = open_archive(data_dir), LiteralConsole()
     rows = archive.status(_addresses(trials, archive))
     _show(rows, data_dir, console)
-    _suggest(rows, bench.DataRequest(trials, data_dir, plugin), console)
+    _suggest(rows, trials, data_dir, plugin)
 
 
 @app.command()
@@ -69,9 +69,8 @@ def fetch(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = Non
     """Download recordings; those that are here and right are left alone."""
     load_plugins(plugin)
     archive = open_archive(data_dir)
-    _get_each(
-        archive, lambda uri: archive.fetch([uri]), bench.DataRequest(trials, data_dir, plugin)
-    )
+    rows = _get_each(archive, lambda uri: archive.fetch([uri]), trials, data_dir)
+    _suggest(rows, trials, data_dir, plugin)
 
 
 @app.command()
@@ -82,7 +81,8 @@ def renew(trials: NamedTrials, data_dir: DataDir = None, plugin: Plugins = None)
     """
     load_plugins(plugin)
     archive = open_archive(data_dir)
-    _get_each(archive, archive.renew, bench.DataRequest(trials, data_dir, plugin))
+    rows = _get_each(archive, archive.renew, trials, data_dir)
+    _suggest(rows, trials, data_dir, plugin)
 
 
 @app.command()
@@ -93,14 +93,19 @@ def verify(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
     tracked = track(_addresses(trials, archive), "verifying", console=console)
     rows = [row for uri in tracked for row in archive.verify([uri])]
     _show(rows, data_dir, console)
-    _suggest(rows, bench.DataRequest(trials, data_dir, plugin), console)
+    _suggest(rows, trials, data_dir, plugin)
     if any(row.state == "wrong" for row in rows):
         raise typer.Exit(ExitCode.USAGE)
 
 
-def _get_each(archive: Archive, get: Callable[[str], object], request: bench.DataRequest) -> None:
+def _get_each(
+    archive: Archive,
+    get: Callable[[str], object],
+    trials: Sequence[str] | None,
+    data_dir: Path | None,
+) -> Sequence[RecordingStatus]:
     """Get all recordings that can be had, show what is here, and say what failed."""
-    console, addresses = LiteralConsole(), _addresses(request.trials, archive)
+    console, addresses = LiteralConsole(), _addresses(trials, archive)
     failures = []
     for uri in _track_fetching(addresses, console):
         try:
@@ -110,10 +115,10 @@ def _get_each(archive: Archive, get: Callable[[str], object], request: bench.Dat
         except (datasets.FetchError, datasets.DigestMismatch) as error:
             failures.append(str(error))
     rows = archive.status(addresses)
-    _show(rows, request.data_dir, console)
+    _show(rows, data_dir, console)
     if failures:
         raise UsageError("\n".join(failures))
-    _suggest(rows, request, console)
+    return rows
 
 
 def _addresses(trials: Iterable[str] | None, archive: Archive) -> list[str]:
@@ -144,7 +149,11 @@ def _show(rows: Sequence[RecordingStatus], data_dir: Path | None, console: Liter
 
 
 def _suggest(
-    rows: Sequence[RecordingStatus], request: bench.DataRequest, console: LiteralConsole
+    rows: Sequence[RecordingStatus],
+    trials: Sequence[str] | None,
+    data_dir: Path | None,
+    plugin: Sequence[Path] | None,
 ) -> None:
     """Say what to do next."""
-    console.print(bench.next_data_step(rows, request), soft_wrap=True)
+    step = bench.next_data_step(rows, trials or (), data_dir, plugin or ())
+    LiteralConsole().print(step, soft_wrap=True)

@@ -7,34 +7,11 @@ import shlex
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 from mocapbench.basics.words import format_count
 from mocapbench.datasets import RecordingStatus, named_folders
 
-__all__ = ["DataRequest", "data_totals", "next_data_step"]
-
-
-class DataRequest(NamedTuple):
-    """What the user gave to ``mocapbench data``, and has to give to the next command too."""
-
-    trials: Sequence[str] | None
-    data_dir: Path | None
-    plugins: Sequence[Path] | None
-
-    def command(self, *words: str) -> str:
-        """Return a command that has the same folder and plug-ins."""
-        return shlex.join(["mocapbench", *words, *self._options()])
-
-    def data_command(self, name: str) -> str:
-        """Return a command of ``mocapbench data`` on the same recordings."""
-        return self.command("data", name, *(self.trials or ()))
-
-    def _options(self) -> Iterator[str]:
-        if self.data_dir and str(self.data_dir) != os.environ.get("MOCAPBENCH_DATA"):
-            yield from ("--data-dir", str(self.data_dir))
-        for path in self.plugins or ():
-            yield from ("--plugin", str(path))
+__all__ = ["data_totals", "next_data_step"]
 
 
 def data_totals(rows: Sequence[RecordingStatus], data_dir: Path | None) -> str:
@@ -47,14 +24,39 @@ def data_totals(rows: Sequence[RecordingStatus], data_dir: Path | None) -> str:
     return f"{format_count(len(rows), 'recording')}: {'; '.join(filter(None, parts))}"
 
 
-def next_data_step(rows: Sequence[RecordingStatus], request: DataRequest) -> str:
-    """Return the command to give next, and why."""
-    states = Counter(row.state for row in rows)
-    fetch, verify = request.data_command("fetch"), request.data_command("verify")
+def next_data_step(
+    rows: Sequence[RecordingStatus],
+    recordings: Sequence[str],
+    data_dir: Path | None,
+    plugins: Sequence[Path],
+) -> str:
+    """Return the command to give next, and why.
+
+    Parameters
+    ----------
+    rows : sequence of RecordingStatus
+    recordings : sequence of str
+        Those that the user named, none for all that tasks use.
+    data_dir : Path or None
+    plugins : sequence of Path
+        The options that the user gave, and has to give to the next command too.
+    """
+    states, options = Counter(row.state for row in rows), [*_list_options(data_dir, plugins)]
+    fetch, verify = (
+        shlex.join(["mocapbench", "data", name, *recordings, *options])
+        for name in ("fetch", "verify")
+    )
     if states["wrong"]:
         return f"next: remove what is wrong, then `{fetch}`"
     if states["missing"]:
         return f"next: `{fetch}` downloads what is missing, or name its folder with --data-dir"
     if states["available"]:
         return f"next: `{verify}` reads them and checks that they are right"
-    return f"next: `{request.command('run')}`"
+    return f"next: `{shlex.join(['mocapbench', 'run', *options])}`"
+
+
+def _list_options(data_dir: Path | None, plugins: Sequence[Path]) -> Iterator[str]:
+    if data_dir and str(data_dir) != os.environ.get("MOCAPBENCH_DATA"):
+        yield from ("--data-dir", str(data_dir))
+    for path in plugins:
+        yield from ("--plugin", str(path))
