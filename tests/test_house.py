@@ -17,6 +17,8 @@ FOLDERS = ("datasets", "metrics", "baselines", "reports", "benchmark")
 MOST_WORDS, MOST_WORDS_OF_A_PAGE = 30_000, 2_000
 CODE = ("metrics", "datasets", "baselines", "reports", "benchmark", "src")
 MOST_PARTICIPLES = 0.015  # of all functions
+MOST_RECORDS = 200
+RECORDS = {"NamedTuple", "TypedDict"}
 IRREGULAR = (
     "bound|built|caught|chosen|done|drawn|found|given|gone|grown|held|hidden|hurt|kept|known|laid|led|"
     "left|lost|made|meant|met|paid|said|seen|sent|shown|sold|spent|taken|taught|thought|told|"
@@ -75,15 +77,46 @@ def test_a_clone_has_the_folders_at_the_top_and_links_to_them_in_the_package():
     assert not any((ROOT / folder).is_symlink() for folder in FOLDERS)
 
 
-def find_functions():
-    """Yield the functions and methods of the product, but for special methods and properties."""
+def find_nodes(kind):
+    """Yield the nodes of one kind in the syntax trees of the product."""
     for folder in CODE:
         for path in sorted((ROOT / folder).rglob("*.py")):
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.FunctionDef) and not node.name.startswith("__"):
-                    marks = {ast.unparse(mark).split(".")[-1] for mark in node.decorator_list}
-                    if not marks & NOT_CALLED:
-                        yield node.name
+            tree = ast.parse(path.read_text(encoding="utf-8"))
+            yield from (node for node in ast.walk(tree) if isinstance(node, kind))
+
+
+def find_functions():
+    """Yield the functions and methods of the product, but for special methods and properties."""
+    for node in find_nodes(ast.FunctionDef):
+        marks = {ast.unparse(mark).split(".")[-1] for mark in node.decorator_list}
+        if not node.name.startswith("__") and not marks & NOT_CALLED:
+            yield node.name
+
+
+def is_record(node):
+    """Return whether the definition of a class is that of a dataclass, or a tuple of names."""
+    bases = {ast.unparse(base).split(".")[-1] for base in node.bases}
+    return bool(bases & RECORDS) or any("dataclass" in ast.unparse(m) for m in node.decorator_list)
+
+
+@pytest.mark.parametrize(
+    ("code", "expected"),
+    [
+        ("@dataclass(frozen=True)\nclass A: pass", True),
+        ("class A(typing.NamedTuple): pass", True),
+        ("class A(TypedDict): pass", True),
+        ("@final\nclass A(Base): pass", False),
+    ],
+)
+def test_a_record_is_told_by_what_makes_it_one(code, expected):
+    assert is_record(ast.parse(code).body[0]) is expected
+
+
+def test_the_house_has_at_most_200_records():
+    """Where values are unpacked at once, or always travel together, none is needed."""
+    records = [node.name for node in find_nodes(ast.ClassDef) if is_record(node)]
+    assert records
+    assert len(records) <= MOST_RECORDS
 
 
 def is_bare_participle(name):
