@@ -36,7 +36,6 @@ from .problems.base import InvalidPredictionError, Problem
 from .problems.body import Body, JointAngles, JointPositions
 from .problems.cluster import ClusterProblem, Clusters
 from .problems.impute import ImputeProblem
-from .problems.internals import Internals
 from .problems.masks import hide_all_but, hide_frames, hide_runs
 from .problems.recover import RecoverProblem
 from .problems.synthesise import SynthesiseProblem
@@ -84,7 +83,6 @@ __all__ = [
     "Entrant",
     "ExitCode",
     "ImputeProblem",
-    "Internals",
     "InvalidPredictionError",
     "Job",
     "JointAngles",

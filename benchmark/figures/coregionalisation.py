@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.figures.solved import Solved
+from mocapbench.benchmark.problems.arrays import with_prefix
 from mocapbench.reports import HeatMaps
 
 __all__ = ["draw_coregionalisation"]
@@ -40,7 +41,7 @@ def draw_coregionalisation(
     if label not in solved.internals:
         return ()
     channels = solved.problem.train[0].channels
-    layers = _correlations(solved.internals[label].coregionalisation)
+    layers = _correlations(with_prefix("coregionalisation", solved.internals[label]))
     joints = [channel.partition(".")[0] for channel in channels]
     pictures = [_picture(solved.task, f"{label}, all joints", joints, layers)]
     for title, group in joint_groups.items():

@@ -6,8 +6,8 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
+from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import Problem
-from mocapbench.benchmark.problems.internals import Internals
 from mocapbench.datasets import Archive
 
 __all__ = ["Solved"]
@@ -27,8 +27,8 @@ class Solved(Generic[P, A]):
     problem : Problem
     solutions : mapping of str to solution
         By label, as `Problem.solve` returns them.
-    internals : mapping of str to Internals
-        Fitted quantities, by label.
+    internals : mapping of str to mapping of str to ndarray
+        By label, the arrays that ``internals_of`` returns, and maybe others.
     papers : collection of str
         The labels that stand for models of the papers.
     ranking : sequence of str
@@ -44,7 +44,7 @@ class Solved(Generic[P, A]):
     task: str
     problem: P
     solutions: Mapping[str, A]
-    internals: Mapping[str, Internals] = field(default_factory=dict)
+    internals: Mapping[str, Arrays] = field(default_factory=dict)
     papers: Collection[str] = ()
     ranking: Sequence[str] = ()
     metric: str = ""

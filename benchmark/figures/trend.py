@@ -34,9 +34,9 @@ def draw_trends(solved: Solved[Any, Any], /, channels: tuple[str, ...]) -> Seque
     """
     parent = solved.problem.parent
     trends = {
-        label: internals.trend
+        label: internals
         for label, internals in solved.internals.items()
-        if internals.trend is not None
+        if "trend-mean" in internals
     }
     if parent is None or not trends:
         return ()

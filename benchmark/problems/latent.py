@@ -45,15 +45,15 @@ def _box(positions: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack(np.meshgrid(*sides, indexing="ij"), axis=-1).reshape(-1, N_DIMENSIONS)
 
 
-def walks_of(model: Dynamical) -> Arrays | None:
-    """Return walks through a latent space of three dimensions, None through any other.
+def walks_of(model: Dynamical) -> Arrays:
+    """Return walks through a latent space of three dimensions, nothing of any other.
 
     ``latent-mean`` (N, 3) is the mean prediction from the first training frame, ``latent-sample-i``
     (N, 3) are samples; ``walk-mean`` and ``walk-sample`` (N, D) are the poses along the mean and
     along the last sample.
     """
     if model.latent_paths()[0].shape[1] != N_DIMENSIONS:
-        return None
+        return {}
     mean, samples = model.latent_walks(N_WALK, N_SAMPLES, random_state=0)
     poses = {"walk-mean": model.poses(mean), "walk-sample": model.poses(samples[-1])}
     return {"latent-mean": mean, **with_numbers("latent-sample", samples), **poses}

@@ -7,7 +7,6 @@ from math import isfinite, nan
 from typing import Any
 
 from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.benchmark.problems.internals import Internals
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.results.interpolations import interpolates
 from mocapbench.benchmark.runs.directory import RunDirectory
@@ -55,7 +54,7 @@ def solved_problem(
         task.name,
         problem,
         {label: problem.from_arrays(of_label) for label, of_label in arrays.items()},
-        {label: Internals.from_arrays(of_label) for label, of_label in arrays.items()},
+        arrays,
         task.page.published_models,
         ranking=_ranking(task, records),
         metric=METRICS.get(task.page.metrics[0]).title,

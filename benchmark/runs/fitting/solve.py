@@ -34,14 +34,14 @@ class Fitted(NamedTuple):
     model: Model
     costs: FitCosts
     internals: Arrays | None = None
-    """Its `Internals`, where they are known."""
+    """What `internals_of` returns, where it is known."""
 
     def with_internals(self, problem: Problem[Any]) -> Self:
         """Return the same with internals; to compute them may change the model's state."""
         if self.internals is not None:
             return self
         with _warnings() as caught:
-            internals = internals_of(self.model, problem.train).to_arrays()
+            internals = internals_of(self.model, problem.train)
         costs = self.costs._replace(warnings=(*self.costs.warnings, *_texts(caught)))
         return self._replace(costs=costs, internals=internals)
 

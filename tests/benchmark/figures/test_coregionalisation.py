@@ -3,7 +3,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from mocapbench.benchmark import Internals, Solved, draw_coregionalisation
+from mocapbench.benchmark import Solved, draw_coregionalisation
 from mocapbench.benchmark.tasks.pages.joints import JOINT_GROUPS
 
 FIGURE = partial(draw_coregionalisation, label="mohgp-3", joint_groups=JOINT_GROUPS)
@@ -21,7 +21,7 @@ def matrices():
 
 
 def test_components_of_a_layer_add_up_to_its_correlations(walking, matrices):
-    internals = Internals(coregionalisation={"parent": matrices, "child": 4.0 * matrices})
+    internals = {"coregionalisation-parent": matrices, "coregionalisation-child": 4.0 * matrices}
     solved = Solved("walking", walking, {}, {"mohgp-3": internals})
     whole, leg, _ = FIGURE(solved)
     assert [*whole.maps][:4:3] == [
@@ -41,5 +41,5 @@ def test_components_of_a_layer_add_up_to_its_correlations(walking, matrices):
 
 
 def test_matrices_are_shown_of_the_entrant_that_the_page_names(walking, matrices):
-    internals = {"moa-1": Internals(coregionalisation={"parent": matrices})}
+    internals = {"moa-1": {"coregionalisation-parent": matrices}}
     assert list(FIGURE(Solved("walking", walking, {}, internals))) == []

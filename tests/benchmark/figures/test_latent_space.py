@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import GPDM, GPLVM
-from mocapbench.benchmark import Internals, Solved, draw_latent_spaces
+from mocapbench.benchmark import Solved, draw_latent_spaces
 from mocapbench.benchmark.problems.internals import internals_of
 from mocapbench.reports import Space
 
@@ -48,13 +48,13 @@ def test_latent_spaces_of_three_dimensions_are_shown(solved):
 
 def test_the_cloud_has_the_confidence_for_its_values(solved):
     gplvm, *_ = FIGURE(solved)
-    stored = solved.internals["gplvm-window"].latent_space["latent-cloud"]
+    stored = solved.internals["gplvm-window"]["latent-cloud"]
     np.testing.assert_array_equal(gplvm.cloud, stored[:, :3])
     np.testing.assert_array_equal(gplvm.values, stored[:, 3])
 
 
 @pytest.mark.parametrize("label", ["gpdm-6d", "trivial"])
 def test_an_entrant_without_such_a_space_is_left_out(problem, solved, label):
-    internals = {"trivial": Internals(), **solved.internals}
+    internals = {"trivial": {}, **solved.internals}
     alone = Solved("missing-frames", problem, {}, {label: internals[label]})
     assert list(draw_latent_spaces(alone, (label,))) == []
