@@ -1,6 +1,8 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from hypothesis import assume, example, given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -33,7 +35,6 @@ STARTS = st.lists(st.integers(0, N_FRAMES - 20), min_size=1, max_size=6)
 
 
 @given(STARTS, st.integers(1, 15), st.integers(40, 3 * N_FRAMES), st.integers(0, 2))
-@example([100], 10, 800, 2)  # half of it has room for more frames than there are to fill
 def test_every_wanted_entry_is_wanted_in_one_window(starts, length, limit, n_train):
     asked = problem(starts, length, n_train)
     wanted = np.zeros(asked.target.shape, dtype=int)
@@ -64,9 +65,32 @@ def test_a_window_has_as_much_on_both_sides_of_a_gap():
     assert window == slice(80, 130)
 
 
-def test_a_gap_longer_than_a_window_is_refused():
-    with pytest.raises(ValueError, match="gaps of at most 20 frames, got one of 30"):
-        cut_windows(problem([100], 30), 40)
+@pytest.mark.parametrize("n_train", [1, 2])
+def test_training_has_half_of_the_frames_and_shares_them(n_train):
+    asked = problem([100], 10, n_train)
+    ((_, part),) = cut_windows(asked, 100)
+    assert len(part.given.times) == 50
+    for short, whole in zip(part.train, asked.train, strict=True):
+        np.testing.assert_array_equal(short.times, whole.times[: 50 // n_train])
+
+
+def test_what_training_leaves_over_is_of_the_recording_to_fill():
+    asked = problem([100], 10, n_train=1)
+    short = replace(asked, train=(asked.train[0].frames(np.arange(5)),))
+    ((_, part),) = cut_windows(short, 100)
+    assert [len(recording.times) for recording in (part.given, *part.train)] == [95, 5]
+
+
+@pytest.mark.parametrize("start", [0, 100, 290])
+def test_a_window_with_room_for_all_frames_has_them_all(start):
+    ((window, _),) = cut_windows(problem([start], 10, n_train=2), 800)
+    assert window == slice(0, N_FRAMES)
+
+
+@pytest.mark.parametrize(("limit", "most"), [(40, 20), (10, 0)])
+def test_a_gap_longer_than_a_window_is_refused(limit, most):
+    with pytest.raises(ValueError, match=f"gaps of at most {most} frames, got one of 30"):
+        cut_windows(problem([100], 30), limit)
 
 
 def test_the_longest_gap_that_the_refusal_allows_is_taken():
