@@ -34,6 +34,31 @@ def test_it_learns_from_gaps_twice_as_long_as_the_time_between_the_frames_beside
     assert learnt == [pytest.approx(seconds)]
 
 
+def test_all_frames_near_a_gap_count_however_long_the_recording_is(monkeypatch):
+    seen, predict = [], marker_gap.predict_marker
+
+    def watch(frames, *others):
+        seen.append(frames.times)
+        return predict(frames, *others)
+
+    monkeypatch.setattr(marker_gap, "predict_marker", watch)
+    places = np.random.default_rng(0).normal(size=(2000, 4, 3))
+    places[900:940, 0] = np.nan
+    gap = MarkerGap(
+        [np.arange(2000.0)],
+        [places],
+        marker=0,
+        frames=np.arange(900, 940),
+        others=np.arange(1, 4),
+        steady=np.ones(3),
+        power=1.0,
+    )
+    gap.fill()
+    (times,) = seen
+    assert {*range(880, 900), *range(940, 960)} < set(times)
+    assert len(set(times)) == len(times) < 500
+
+
 @pytest.mark.parametrize(("n_others", "n_seen"), [(2, 9), (3, 0), (3, 1), (3, 2), (4, 2)])
 def test_three_others_and_two_frames_that_show_the_marker_beside_them_fill_a_gap(n_others, n_seen):
     places = np.random.default_rng(0).normal(size=(10, 1 + n_others, 3))

@@ -2,12 +2,16 @@
 
 import html
 import json
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import pytest
 from markdown_it import MarkdownIt
 from plans import plan_of
 
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.gate.reference import Reference
+from mocapbench.benchmark.gate.updating import require_updatable
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
@@ -147,6 +151,13 @@ def test_a_failed_fold_that_the_reference_lacks_is_3_too(check):
     assert check({"knn": _mse(1.0)}, {"knn": [{"mse": 1.0}, Status.FAILED]}) == 3
 
 
+def test_failed_jobs_without_reference_values_are_told_by_name(check, tmp_path):
+    after = {name: [Status.FAILED] for name in ("nn", "knn", "moa")}
+    assert check({"trivial": _mse(1.0)}, {"trivial": _mse(1.0), **after}) == 3
+    found = json.loads((tmp_path / "after" / "check.json").read_text())["findings"]
+    assert [each["label"] for each in found] == ["trivial", "knn", "moa", "nn"]
+
+
 def test_worse_comes_before_broken(check):
     before = {"knn": _mse(1.0), "nn": _mse(1.0)}
     assert check(before, {"knn": _mse(1.1), "nn": [Status.FAILED]}) == 1
@@ -231,6 +242,15 @@ def test_failed_jobs_are_no_reference_unless_asked(cli, run, tmp_path):
     text = (reference / f"{TASK}.csv").read_text()
     assert "knn,mse,2.0" in text
     assert "nn,mse,1.0" in text
+
+
+def test_the_failure_that_a_refusal_tells_is_of_the_job_that_it_names(tmp_path):
+    records = [
+        replace(_record(label, 0, Status.FAILED, ABOUT, 1), message=f"{label} broke")
+        for label in ("knn", "nn")
+    ]
+    with pytest.raises(UsageError, match=r"2 jobs failed \((\w+): \1 broke\)"):
+        require_updatable(tmp_path / "b.csv", Reference({}), records, 2, allow_failures=False)
 
 
 @pytest.mark.parametrize("name", ["profile", "seed"])

@@ -81,6 +81,11 @@ def test_pairs_cancel_how_hard_a_fold_is():
     assert _verdict(hard, hard + 1000.0, tolerance=CROSS) is Verdict.WORSE
 
 
+@pytest.mark.filterwarnings("error")
+def test_one_fold_has_no_standard_error():
+    assert judge([1.0], [1.1], MSE, CROSS).allowance == CROSS.floor(1.0)
+
+
 def test_equal_differences_have_no_standard_error_to_hide_behind():
     assert _verdict([1.0] * 5, [1.1] * 5) is Verdict.WORSE
     assert _verdict([1.0], [1.1]) is Verdict.WORSE
