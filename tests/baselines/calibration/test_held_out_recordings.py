@@ -183,6 +183,38 @@ def test_those_held_out_are_not_learnt_from_and_held_out_at_once_where_many_are_
             assert not set(learnt) & set(held)
 
 
+@pytest.mark.parametrize("n_others", [0, 1, 2, 3, 20])
+@pytest.mark.parametrize("among", [True, False])
+def test_recordings_are_held_out_unless_nobody_would_be_left(n_others, among):
+    new, others = (
+        noise("new", 1.0),
+        [noise(name, 1.0) for name in "abcdefghijklmnopqrst"[:n_others]],
+    )
+    learnt_from = [*others, new] if among else others
+    splits = hold_out_recordings(learnt_from, new)
+    assert bool(splits) is (n_others > 0 and len(learnt_from) > 1)
+    for held_out, left in splits:
+        assert left
+        assert new not in held_out
+        assert sorted(r.name for r in (*held_out, *left)) == sorted(r.name for r in learnt_from)
+
+
+@given(st.integers(0, 49), st.integers(1, 10), st.integers(12, 70))
+def test_a_recording_is_cut_around_gaps_that_stay_whole(start, length, n_frames):
+    """Of the frames that both have, as many on either side as ends allow."""
+    mask = np.zeros((50, 1), dtype=bool)
+    mask[start : start + length] = True
+    recording = noise("r", 1.0, n_frames=n_frames)
+    ((cut, kept),) = cut_to_length(recording, [mask])
+    assert len(cut.times) == len(kept) == min(n_frames, 50)
+    assert kept.sum() == mask.sum()
+    (first, *_), before = np.flatnonzero(kept), len(kept) // 2 - length // 2
+    nearest = np.clip(before, start + len(kept) - 50, start)
+    assert abs(first - nearest) <= 1
+    missing = n_frames - len(kept)
+    assert cut.times[0] == recording.times[missing // 2]
+
+
 def test_a_channel_that_one_training_recording_alone_shows_does_no_harm():
     one, two = noise("one", 1.0, 1.0), noise("two", 1.0, 1.0)
     missing = np.zeros((200, 2), dtype=bool)
