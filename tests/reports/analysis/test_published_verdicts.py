@@ -93,6 +93,12 @@ def test_the_direction_mirrors_the_verdict(ours, value, half_width):
     assert higher is mirror.get(lower, lower)
 
 
+def test_as_far_from_the_target_on_its_other_side_is_no_better():
+    around = MetricInfo("m", "M", Direction.TARGET, 0.5)
+    for ours, theirs in ((0.25, 0.75), (0.75, 0.25)):
+        assert verdict(ours, printed(theirs), around) is not PublishedVerdict.BETTER
+
+
 @pytest.mark.parametrize(
     ("ours", "half_width", "expected"),
     [
