@@ -1,3 +1,5 @@
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -106,6 +108,37 @@ def test_a_gap_in_all_channels_beside_others_has_whole_frames_as_copies():
         assert len(whole) == 5
         lengths = [sorted(map(len, runs(column))) for column in mask.T]
         assert lengths == [[5, 8], [5], [5], [5, 10]]
+
+
+@pytest.mark.parametrize("at_start", [True, False])
+def test_whole_frames_at_an_end_have_whole_frames_at_an_end_as_copies(at_start):
+    hidden = np.zeros((100, 4), dtype=bool)
+    hidden[:6], hidden[40:50, 0] = True, True
+    hidden = hidden if at_start else hidden[::-1]
+    masks = hold_out_gaps(recording(hidden))
+    assert len(masks) == N_SETS
+    for mask in masks:
+        (whole,) = runs(mask.all(axis=1))
+        assert len(whole) == 6
+        seen = np.flatnonzero(~hidden.any(axis=1))
+        assert whole[0] == seen[0] or whole[-1] == seen[-1]
+
+
+def test_a_copy_of_whole_frames_may_hide_half_of_those_that_all_channels_show():
+    hidden = np.zeros((32, 4), dtype=bool)
+    hidden[14:24], hidden[14:26, 0] = True, True
+    assert (~hidden.any(axis=1)).sum() == 20
+    masks = hold_out_gaps(recording(hidden))
+    assert masks
+    for mask in masks:
+        assert mask.all(axis=1).sum() == 10
+
+
+def test_what_a_gap_is_shortened_to_is_half_as_long_each_time():
+    free = np.zeros(200, dtype=bool)
+    lengths = [len(frames) for frames in copies(free, np.arange(60, 124), 0.5)]
+    assert lengths[0] == 64
+    assert all(2 * after == before for before, after in pairwise(lengths))
 
 
 def test_a_lost_channel_does_not_count_for_whole_frames():

@@ -13,7 +13,7 @@ from mocapbench.baselines.calibration.error_ratios import (
     sum_ratios,
 )
 from mocapbench.baselines.calibration.held_out_gaps import hold_out_gaps, remoteness
-from mocapbench.baselines.calibration.variance_check import VarianceCheck
+from mocapbench.baselines.calibration.variance_check import STEEPEST, VarianceCheck
 from mocapbench.baselines.calibration.ways import calibrate, impute_held_out
 from mocapbench.datasets import Recording
 
@@ -282,3 +282,13 @@ def test_neither_order_nor_company_matters():
     for one, *others in zip(here, there, alone, strict=True):
         for other in others:
             np.testing.assert_allclose(other.variance, one.variance)
+
+
+def test_copies_of_two_frames_are_too_short_to_be_halved_and_shorter_than_the_gap():
+    """All of their entries are beside visible ones, as those of a single frame."""
+    hidden = np.tile(np.repeat([False, True], 4), 4)[:-4, None]
+    values = np.where(hidden, np.nan, 1.0)
+    check = VarianceCheck(Recording("r", np.arange(len(values)) / 30, values, ("a",), ("",)))
+    assert check.copies
+    assert check.halves == []
+    np.testing.assert_allclose(check.steepest, 2.0**STEEPEST)
