@@ -217,6 +217,10 @@ def test_a_decision_follows_from_the_interval_and_the_number_of_cells(check, mlc
         assert n >= ENOUGH_CELLS or measure.estimate.mean + half <= 0
 
 
+def test_enough_cells_are_the_fewest_of_which_a_sign_test_can_reject():
+    assert 2.0**-ENOUGH_CELLS <= 0.025 < 2.0 ** (1 - ENOUGH_CELLS)
+
+
 def test_an_exempt_entrant_is_never_undecided(check):
     entrants = {"prior": folds(1, CONTROL), "control": folds(1, CONTROL)}
     results = check(entrants, cases=("one",), exempt={"prior": "draws around no trend"})

@@ -104,6 +104,22 @@ def test_the_spread_over_samples_is_averaged_over_folds(small):
     assert found.two_sd == pytest.approx(2.0)
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("lost", [(), (0,), (1, 3), (0, 1, 2), (1, 2, 3)])
+def test_an_estimate_is_that_of_the_folds_that_have_a_score(small, lost):
+    """Beside a row that has them all, and without a warning where a single one is left."""
+    values = np.array([1.0, 3.0, 7.0, 2.0])
+    values[[*lost]] = np.nan
+    results = results_of(small({"row": {"a": [2.0, 4.0, 1.0, 9.0], "b": values.tolist()}}))
+    found, expected = results.estimate("row", "b", "mse"), FoldMean.of(values[~np.isnan(values)])
+    assert (found.n, found.mean) == (expected.n, pytest.approx(expected.mean))
+    for ours, alone in (
+        (found.two_sd, expected.two_sd),
+        (found.half_width, expected.half_width),
+    ):
+        assert ours == (None if alone is None else pytest.approx(alone))
+
+
 @pytest.mark.parametrize(
     ("subjects", "independent", "units"),
     [
