@@ -13,6 +13,7 @@ __all__ = [
     "TableColumns",
     "is_index",
     "is_likelihood",
+    "is_time",
     "sort_columns",
     "split_unit",
     "time_unit",
@@ -64,6 +65,11 @@ def is_index(name: str) -> bool:
     """Return whether a column of this name has times or counts frames."""
     plain = name.strip().lower()
     return any(pattern.fullmatch(plain) for pattern in (_TIME, _FRAME)) or plain in _COUNT
+
+
+def is_time(name: str) -> bool:
+    """Return whether a column of this name has times."""
+    return _TIME.fullmatch(name.strip().lower()) is not None
 
 
 def is_likelihood(name: str) -> bool:

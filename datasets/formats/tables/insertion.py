@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from mocapbench.datasets.formats.tables.clock_times import is_clock, set_clock
 from mocapbench.datasets.formats.tables.sheet import Sheet
 from mocapbench.datasets.formats.text.numbers import format_number
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask
@@ -84,8 +85,10 @@ def _index_cell(sheet: Sheet, column: int, frame: int, before: int) -> str:
     if of_frame >= 0:
         return sheet.table.row(sheet.table.rows[int(of_frame)])[column]
     like = sheet.table.row(sheet.table.rows[before])[column].strip()
-    digits = len(like.partition(sheet.table.decimal)[2])
     values: Frames = sheet.index(column)  # type: ignore[assignment]
+    if is_clock(like):
+        return set_clock(like, float(values[frame]))
+    digits = len(like.partition(sheet.table.decimal)[2])
     return f"{values[frame]:.{digits}f}".replace(".", sheet.table.decimal)
 
 

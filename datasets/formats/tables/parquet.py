@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 
@@ -11,14 +12,17 @@ from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import recording_of
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.isolation.calls import IsolatedCallError, call_isolated
+from mocapbench.datasets.formats.missing_rows import count_missing_rows, warn_of_missing_rows
 from mocapbench.datasets.formats.tables.columns import (
     TableColumns,
+    is_time,
     sort_columns,
     split_unit,
     time_unit,
     warn_of_text,
 )
 from mocapbench.datasets.formats.tables.frame_times import FrameTimes
+from mocapbench.datasets.formats.tables.plan import is_key
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recording
 
 __all__ = ["ParquetFormat"]
@@ -44,8 +48,10 @@ class ParquetFormat(Format):
         """Return the recording with the values that the file has."""
         names, columns, values = _read_table(path)
         times, frames = (None if k is None else values[:, k] for k in (columns.time, columns.frame))
-        if times is None and frames is not None:
-            _check_one_row_a_frame(path.name, frames)
+        _check_one_row_a_frame(path.name, names, times, frames)
+        missing, advice = count_missing_rows(frames, times), "they stay so, as in all Parquet files"
+        by = "times" if frames is None else "frames"
+        warn_of_missing_rows(path.name, missing, lambda row: f"row {row + 1}", by, advice)
         unit = "" if columns.time is None else time_unit(names[columns.time])
         given = FrameTimes(path.name, times, unit, frames, None, names)
         warn_of_text(path.name, [names[column] for column in columns.left_out])
@@ -76,12 +82,23 @@ def _read_table(path: Path) -> tuple[list[str], TableColumns, FrameByChannel]:
         advice = "export the recording again as Parquet"
         raise FormatError(path.name, "a Parquet file", str(error), advice) from error
     names = read["names"].tolist()
-    return names, sort_columns(names, read["is_number"].tolist()), read["values"]
+    named = np.array([is_time(name) for name in names], dtype=bool)
+    clocks = read["is_time"] & named & ~(read["is_number"] & named).any()
+    is_number = (read["is_number"] | clocks).tolist()
+    return names, sort_columns(names, is_number), read["values"]
 
 
-def _check_one_row_a_frame(file: str, frames: Frames) -> None:
-    """Refuse a table with a row for each marker of each frame, of which rows are no frames."""
-    values, counts = np.unique(frames, return_counts=True)
+def _check_one_row_a_frame(
+    file: str, names: Sequence[str], times: Frames | None, frames: Frames | None
+) -> None:
+    """Refuse a table with a row for each marker of each frame, of which rows are no frames.
+
+    Frames repeat in it, or times do and a column says of which marker a row is.
+    """
+    index = times if frames is None and any(map(is_key, names)) else frames
+    if index is None or (times is not None and (np.diff(times) > 0).all()):
+        return
+    values, counts = np.unique(index, return_counts=True)
     for value in values[counts > 1][:1]:
         advice = "write one row a frame, with a column for each coordinate, or export it as CSV"
         raise FormatError(file, "one row a frame", f"several of frame {value:g}", advice)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
@@ -15,17 +16,30 @@ from mocapbench.datasets.recording import FrameByChannel, Frames, Mask
 
 __all__ = ["read_columns", "write_columns"]
 
+_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+
 
 def read_columns(path: str) -> Mapping[str, NDArray[Any]]:
-    """Return ``names`` (C,), ``is_number`` (C,) and ``values`` (N, C), NaN where there is none."""
+    """Return the columns of a file.
+
+    Returns
+    -------
+    dict of str to ndarray
+        ``names`` (C,), ``is_number`` (C,), ``is_time`` (C,) and ``values`` (N, C), those of times
+        in seconds, NaN where there is none.
+    """
     table = _read_table(Path(path))
     is_number = [_is_number(field.type) for field in table.schema]
+    is_time = [_seconds_of(field.type) is not None for field in table.schema]
     values = np.full((len(table), len(is_number)), np.nan)
-    for index in np.flatnonzero(is_number).tolist():
-        values[:, index] = _floats(table.column(index))
+    for index in np.flatnonzero(np.logical_or(is_number, is_time)).tolist():
+        column = table.column(index)
+        unit = _seconds_of(column.type)
+        values[:, index] = _floats(column) if unit is None else _seconds(column, unit)
     return {
         "names": np.array(table.column_names, dtype=np.str_),
         "is_number": np.array(is_number, dtype=bool),
+        "is_time": np.array(is_time, dtype=bool),
         "values": values,
     }
 
@@ -55,6 +69,20 @@ def _read_table(path: Path) -> pa.Table:
 
 def _is_number(kind: pa.DataType) -> bool:
     return bool(pa.types.is_floating(kind) or pa.types.is_integer(kind))
+
+
+def _seconds_of(kind: pa.DataType) -> float | None:
+    """Return the unit of times, in seconds; None for what is no time."""
+    known = pa.types.is_timestamp, pa.types.is_duration, pa.types.is_time64, pa.types.is_time32
+    return _UNITS[kind.unit] if any(one(kind) for one in known) else None
+
+
+def _seconds(column: pa.ChunkedArray, unit: float) -> Frames:
+    """Return times in seconds from the first one, NaN for null."""
+    whole = pa.int32() if pa.types.is_time32(column.type) else pa.int64()
+    counts = column.cast(whole)
+    first = next((count.as_py() for count in counts if count.is_valid), 0)
+    return _floats(pc.subtract(counts, pa.scalar(first, whole))) * unit
 
 
 def _floats(column: pa.ChunkedArray) -> Frames:

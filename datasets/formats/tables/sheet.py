@@ -14,9 +14,11 @@ from numpy.typing import NDArray
 from mocapbench.datasets.formats.building import recording_of
 from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.missing_rows import count_missing_rows, warn_of_missing_rows
+from mocapbench.datasets.formats.tables.clock_times import clock_seconds, is_clock
 from mocapbench.datasets.formats.tables.columns import (
     TableColumns,
     is_index,
+    is_time,
     sort_columns,
     split_unit,
     time_unit,
@@ -77,7 +79,7 @@ class Sheet:
         given = FrameTimes(
             file,
             self.index(self.columns.time),
-            "" if self.columns.time is None else time_unit(self.table.names[self.columns.time]),
+            self._time_unit(),
             self.index(self.columns.frame),
             self.head.rate,
             self.table.names,
@@ -87,6 +89,14 @@ class Sheet:
             values[lost] = np.nan
         times = given.seconds(n_frames, rate)
         return recording_of(file, times, values, self._channels(), self._units())
+
+    def _time_unit(self) -> str:
+        """Return the unit that the name of the times states, or nothing; of clocks, seconds."""
+        column = self.columns.time
+        if column is None:
+            return ""
+        clock = self.table.rows and is_clock(self.table.row(self.table.rows[0])[column])
+        return "s" if clock else time_unit(self.table.names[column])
 
     def lost_bodies(self) -> Iterator[tuple[NDArray[np.intp], ...]]:
         """Yield where a marker or body is at 0, 0, 0, if that means that it is missing.
@@ -216,11 +226,14 @@ def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
     table = TextTable(file, above, head.start, cells, width, width, decimal, names)
     is_number = are_numbers(table) if head.dialect is PLAIN else _are_labelled(table, head)
     left_alone = frozenset(k for k, label in enumerate(head.labels) if label.left_alone)
+    clocks = _read_clocks(table, is_number)
+    is_number = [number or k in clocks for k, number in enumerate(is_number)]
     columns = sort_columns(names, is_number, left_alone)
     _check_filled(file, head, columns, len(table.rows))
-    wanted = sorted({*columns.channels, *columns.likelihoods.values(), *_index_columns(columns)})
-    values = table.numbers(wanted)
-    numbers = {column: values[:, place] for place, column in enumerate(wanted)}
+    wanted = {*columns.channels, *columns.likelihoods.values(), *_index_columns(columns)}
+    read = sorted(wanted - clocks.keys())
+    values = table.numbers(read)
+    numbers = {column: values[:, place] for place, column in enumerate(read)} | clocks
     (rows, groups, named_by), columns = _plan_rows(table, columns, numbers)
     keys = {column for group in groups for column in group}
     if head.dialect is PLAIN:
@@ -260,6 +273,28 @@ def _are_labelled(table: TextTable, head: Head) -> list[bool]:
         looks_numeric(shown.get(k) or "0") if is_index(label.name) else not label.left_alone
         for k, label in enumerate(head.labels)
     ]
+
+
+def _read_clocks(table: TextTable, is_number: Sequence[bool]) -> dict[int, Frames]:
+    """Return the column of times as a clock shows them, in seconds, if no other column has times.
+
+    Raises
+    ------
+    FormatError
+        If one of its cells is no time.
+    """
+    named = [k for k, name in enumerate(table.names) if is_time(name)]
+    if any(is_number[k] for k in named) or not (named and table.rows):
+        return {}
+    cells = _cells_of(table, named[:1])[named[0]]
+    if not is_clock(cells[0]):
+        return {}
+    seconds = clock_seconds(cells)
+    for row in np.flatnonzero(np.isnan(seconds))[:1]:
+        expected, advice = f"a time such as {cells[0]!r}", "correct the time"
+        line = table.rows[int(row)] + 1
+        raise FormatError(table.file, expected, repr(cells[row][:60]), advice, line)
+    return {named[0]: seconds}
 
 
 def _index_columns(columns: TableColumns) -> list[int]:

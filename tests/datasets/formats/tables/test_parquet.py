@@ -6,7 +6,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from mocapbench.datasets import FormatError, ParquetFormat, TextColumnsWarning
+from mocapbench.datasets import FormatError, FormatWarning, ParquetFormat, TextColumnsWarning
 from mocapbench.datasets.formats.tables import parquet
 
 PARQUET = ParquetFormat()
@@ -68,11 +68,45 @@ def test_times_may_have_another_unit_and_frames_alone_take_a_rate(tmp_path):
 
 
 @pytest.mark.filterwarnings("ignore::mocapbench.datasets.TextColumnsWarning")
-def test_a_row_for_each_marker_of_each_frame_is_refused(tmp_path):
-    path = tmp_path / "walk.parquet"
-    pd.DataFrame({"frame": [0, 0], "keypoint": ["a", "b"], "x": [1.0, 2.0]}).to_parquet(path)
+@pytest.mark.parametrize("index", [["frame"], ["time"], ["frame", "time"]])
+@pytest.mark.parametrize("rate", [None, 100.0])
+def test_a_row_for_each_marker_of_each_frame_is_refused(tmp_path, index, rate):
+    table = {"frame": [0, 0, 1, 1], "time": [0.0, 0.0, 0.01, 0.01], "marker": [*"abab"]}
+    table = {name: table[name] for name in (*index, "marker")} | {"x": [1.0, 2.0, 3.0, 4.0]}
+    pq.write_table(pa.table(table), tmp_path / "walk.parquet")
     with pytest.raises(FormatError, match="one row a frame, got several of frame 0; write one"):
-        PARQUET.read(path, rate=10.0)
+        PARQUET.read(tmp_path / "walk.parquet", rate)
+
+
+MOMENTS = pd.to_datetime("2026-01-31T23:59:59.98") + pd.to_timedelta([0, 10, 20, 30], "ms")
+CLOCKS = {
+    "timestamps": pa.array(MOMENTS),
+    "timestamps of a zone": pa.array(MOMENTS, pa.timestamp("ms", "Europe/Vienna")),
+    "durations": pa.array(pd.to_timedelta([5, 15, 25, 35], "ms")),
+    "times of the day": pa.array([5000, 15000, 25000, 35000], pa.time64("us")),
+}
+
+
+@pytest.mark.parametrize("kind", CLOCKS)
+def test_moments_are_times(tmp_path, kind):
+    path = tmp_path / "walk.parquet"
+    pq.write_table(pa.table({"timestamp": CLOCKS[kind], "x": [1.0, None, 3.0, 4.0]}), path)
+    walk = PARQUET.read(path)
+    assert walk.channels == ("x",)
+    np.testing.assert_allclose(np.diff(walk.times), 0.01)
+    PARQUET.write(tmp_path / "out.parquet", walk.with_values([[1.0], [2.0], [3.0], [4.0]]), path)
+    assert (
+        pq.read_table(tmp_path / "out.parquet")
+        .column("timestamp")
+        .equals(pq.read_table(path).column("timestamp"))
+    )
+
+
+def test_rows_that_are_missing_are_said(tmp_path):
+    path = tmp_path / "walk.parquet"
+    pq.write_table(pa.table({"time": [0.0, 0.1, 0.2, 0.5, 0.6], "x": [1.0] * 5}), path)
+    with pytest.warns(FormatWarning, match="2 rows are missing, behind row 3, by .* they stay so"):
+        PARQUET.read(path)
 
 
 @pytest.mark.parametrize("keep", [0, 3, 100, 900])

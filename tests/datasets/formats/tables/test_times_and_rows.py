@@ -94,6 +94,58 @@ def test_rounded_times_agree_with_the_head(tmp_path, digits):
         CSV.read(path)
 
 
+CLOCKS = {
+    "ISO": "2026-01-31T{h:02}:{m:02}:{s:06.3f}",
+    "ISO, of a zone": "2026-01-31 {h:02}:{m:02}:{s:09.6f}+01:00",
+    "ISO, UTC": "2026-01-31T{h:02}:{m:02}:{s:06.3f}Z",
+    "German": "31.01.2026 {h:02}:{m:02}:{s:06.3f}",
+    "a clock": "{h}:{m:02}:{s:06.3f}",
+    "minutes": "{m:02}:{s:06.3f}",
+}
+
+
+def clock(form, start, n=8):
+    """Return rows of a time and a number, 100 a second."""
+    seconds = [start + k / 100 for k in range(n)]
+    times = [
+        form.format(h=int(t // 3600) % 24, m=int(t // 60) % 60, s=t % 60 + 1e-9) for t in seconds
+    ]
+    return [f"{time},{k}.5" for k, time in enumerate(times)]
+
+
+@pytest.mark.parametrize("start", [0.25, 36059.96, 86399.96])
+@pytest.mark.parametrize("form", CLOCKS)
+def test_a_clock_tells_times_also_past_midnight(read, form, start):
+    if form == "minutes" and start > 3600:
+        pytest.skip("no hours")
+    rows = clock(CLOCKS[form], start)
+    walk = read("\n".join(["time,hip", *rows, ""]))
+    assert walk.channels == ("hip",)
+    np.testing.assert_allclose(np.diff(walk.times), 0.01, atol=1e-6)
+
+
+@pytest.mark.parametrize("form", CLOCKS)
+def test_rows_that_are_added_have_the_time_of_a_clock(read, tmp_path, form):
+    rows = clock(CLOCKS[form], 59.95)
+    walk = read("\n".join(["time,hip", *rows[:4], *rows[6:], ""]), kind=INSERTING)
+    INSERTING.write(tmp_path / "out.csv", walk, tmp_path / "walk.csv")
+    written = (tmp_path / "out.csv").read_text().splitlines()[1:]
+    assert [row.split(",")[0] for row in written] == [row.split(",")[0] for row in rows]
+
+
+def test_a_clock_knows_noon(read):
+    walk = read("time,hip\n11:59:59.5 AM,1\n12:00:00.0 PM,2\n12:00:00.5 PM,3\n")
+    np.testing.assert_allclose(np.diff(walk.times), 0.5)
+
+
+def test_a_word_among_times_of_a_clock_is_named(read):
+    rows = clock(CLOCKS["ISO"], 0.0)
+    with pytest.raises(
+        FormatError, match="line 4: expected a time such as '2026.*, got 'soon'; co"
+    ):
+        read("\n".join(["time,hip", *rows[:2], "soon,1", *rows[3:], ""]))
+
+
 # Rows that are missing
 
 
