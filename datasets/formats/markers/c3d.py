@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import even_times, recording_of
-from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.errors import FormatWarning
 from mocapbench.datasets.formats.markers.c3d_layout import C3DLayout, find_layout
 from mocapbench.datasets.formats.markers.c3d_parameters import C3DParameters, read_parameters
 from mocapbench.datasets.formats.markers.c3d_points import (
@@ -39,8 +40,9 @@ class C3DFormat(Format):
 
     Only the coordinates that are filled are changed, and the residuals of their points, which
     become 0: calculated, not measured. All other bytes stay: residuals, analogue samples, events.
-    A file of integers gets its values rounded to multiples of its scale. A point of which no
-    coordinate is known is filled as a whole or not at all.
+    A file of integers gets its values rounded to multiples of its scale, and those beyond the
+    largest as that, with a warning. A point of which no coordinate is known is filled as a whole or
+    not at all.
     """
 
     suffixes = (".c3d",)
@@ -104,12 +106,17 @@ def _whole_points(known: Mask) -> Mask:
 
 
 def _encode_coordinates(like: Path, layout: C3DLayout, values: Frames) -> NDArray[Any]:
-    """Return coordinates as the file stores them."""
-    if len(values) and np.abs(values).max() > layout.largest:
-        raise FormatError(
-            like.name,
-            f"coordinates within ±{layout.largest:g}, as the file stores them",
-            f"{values[np.abs(values).argmax()]:g}",
-            "export the recording as C3D with floating-point numbers",
+    """Return coordinates as the file stores them: those beyond its limits as the limits."""
+    low, high = layout.limits
+    held = values.clip(low, high)
+    beyond = values[np.abs(values - held) > max(layout.scale, 0.0) / 2.0]  # they are rounded, too
+    if len(beyond):
+        warnings.warn(
+            f"{like.name}: expected coordinates from {low:g} to {high:g}, which the file can "
+            f"store, got {len(beyond)} beyond, up to {beyond[np.abs(beyond).argmax()]:g}, which are "
+            "written as the nearest of these; to keep them, export the recording as C3D with "
+            "floating-point numbers, and fill that",
+            FormatWarning,
+            stacklevel=2,
         )
-    return layout.encode(values)
+    return layout.encode(held)

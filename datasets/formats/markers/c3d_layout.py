@@ -81,10 +81,11 @@ class C3DLayout:
         return self.start, self.n_points, self.n_samples, self.scale < 0
 
     @property
-    def largest(self) -> float:
-        """The largest coordinate that can be stored."""
-        limit = float(np.iinfo(np.int16).max) * self.scale
-        return self.processor.largest if self.scale < 0 else limit
+    def limits(self) -> tuple[float, float]:
+        """The smallest and the largest coordinate that can be stored."""
+        words, largest = np.iinfo(np.int16), self.processor.largest
+        whole = (float(words.min) * self.scale, float(words.max) * self.scale)
+        return (-largest, largest) if self.scale < 0 else whole
 
     def points(self, path: Path, mode: Literal["r", "r+"]) -> NDArray[Any]:
         """Return the numbers of the points of all frames (N, points, 4), as stored in the file.
@@ -102,7 +103,7 @@ class C3DLayout:
         return stored * self.scale
 
     def encode(self, values: Frames) -> NDArray[Any]:
-        """Return what is stored for coordinates up to the largest."""
+        """Return what is stored for coordinates within the limits."""
         if self.scale < 0:
             return self.processor.encode(values)
         return np.round(values / self.scale).astype(np.int16)

@@ -1,12 +1,14 @@
 """C3D files: invalid points, residuals, integers, results of models, and damaged files."""
 
+import warnings
+
 import ezc3d
 import numpy as np
 import pytest
 from c3d_files import write_bytes
 from format_files import markers, with_gap, write_c3d
 
-from mocapbench.datasets import C3DFormat, FormatError
+from mocapbench.datasets import C3DFormat, FormatError, FormatWarning
 from mocapbench.datasets.formats.markers.c3d_layout import find_layout
 from mocapbench.datasets.formats.markers.c3d_parameters import read_parameters
 
@@ -109,11 +111,20 @@ def test_a_file_of_integers_keeps_them(given, tmp_path):
     assert np.array_equal(after, expected)
 
 
-def test_a_file_of_integers_refuses_what_it_cannot_hold(given, tmp_path):
+def test_a_file_of_integers_gets_the_nearest_of_what_it_can_hold(given, tmp_path):
     as_integers(given, 0.1)
-    expected = r"coordinates within ±3276.7, as the file stores them, got -4000; export the"
-    with pytest.raises(FormatError, match=expected):
+    expected = r"coordinates from -3276.8 to 3276.7, .* got 30 beyond, up to -4000, which are writ"
+    with pytest.warns(FormatWarning, match=expected):
         C3D.write(tmp_path / "out.c3d", filled(given, -4000.0), like=given)
+    assert np.allclose(C3D.read(tmp_path / "out.c3d").values[20:30, :3], -3276.8)
+
+
+@pytest.mark.parametrize("value", [3276.74, -3276.84])
+def test_what_rounds_to_the_largest_is_within_it(given, tmp_path, value):
+    as_integers(given, 0.1)
+    with warnings.catch_warnings(action="error"):
+        C3D.write(tmp_path / "out.c3d", filled(given, value), like=given)
+    assert np.allclose(C3D.read(tmp_path / "out.c3d").values[20:30, :3], value, atol=0.05)
 
 
 def modelled(path, group, label, unit=None):

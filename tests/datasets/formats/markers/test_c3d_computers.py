@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from mocapbench.datasets import C3DFormat, FormatError
+from mocapbench.datasets import C3DFormat, FormatWarning
 from mocapbench.datasets.formats.markers import c3d_numbers
 
 C3D = C3DFormat()
@@ -120,14 +120,18 @@ def test_a_nan_of_ieee_in_a_dec_file_is_no_number(tmp_path):
 
 @pytest.mark.parametrize(
     ("computer", "scale", "limit"),
-    [("Intel", 0.1, "3276.7"), ("DEC", -1.0, r"8.50706e\+37"), ("MIPS", -1.0, r"3.40282e\+38")],
+    [("Intel", 0.1, 3276.8), ("DEC", -1.0, 8.50706e37), ("MIPS", -1.0, 3.40282e38)],
 )
-def test_a_coordinate_that_cannot_be_stored_is_refused(computer, scale, limit, tmp_path):
+def test_the_nearest_of_what_can_be_stored_takes_the_place_of_a_coordinate(
+    computer, scale, limit, tmp_path
+):
     values = np.ones((5, 1, 3))
     values[2] = np.nan
     path = write_bytes(tmp_path / "given.c3d", values, computer, scale)
     recording = C3D.read(path)
     filled = recording.with_values(np.where(recording.visible, 1.0, -1e39))
-    with pytest.raises(FormatError, match=rf"coordinates within ±{limit}, as the file stores them"):
+    with pytest.warns(
+        FormatWarning, match=r"got 3 beyond, up to -1e\+39, which are written as the"
+    ):
         C3D.write(tmp_path / "out.c3d", filled, like=path)
-    assert not (tmp_path / "out.c3d").exists()
+    np.testing.assert_allclose(C3D.read(tmp_path / "out.c3d").values[2], -limit, rtol=1e-5)
