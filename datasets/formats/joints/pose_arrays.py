@@ -47,6 +47,8 @@ _JOINTS = (
     *("left_wrist", "right_wrist"),
 )
 """Which SMPL, SMPL-H and SMPL-X have in common."""
+_UNITY = 1e-3
+"""How far matrices and quaternions are from rotations, at most."""
 _MEMORY = 4.0
 """Bytes that reading takes for each byte of an array."""
 
@@ -146,12 +148,36 @@ def _read_arrays(path: Path, archive: zipfile.ZipFile) -> list[_Array]:
     arrays = [poses, *([translations] if translations else [])]
     for array in arrays:
         shape = array.values.shape
-        whole = array.flat().shape[1] % 3 == 0 if array is poses else shape[1:] == (3,)
+        flat = shape[1] % 3 == 0 if len(shape) == 2 else shape[2:] == (3,)
+        whole = flat if array is poses else shape[1:] == (3,)
         if not whole or shape[0] != len(poses.values):
             expected = f"a row of three numbers a joint for each of {len(poses.values)} frames"
             got = f"the shape {shape} of {array.name!r}"
             raise FormatError(path.name, expected, got, "save the arrays of one motion")
+    _check_rotation_vectors(path.name, poses)
     return arrays
+
+
+def _check_rotation_vectors(file: str, poses: _Array) -> None:
+    """Refuse matrices and quaternions, which have three numbers a joint or a multiple by chance."""
+    values = poses.flat()
+    seen = values[np.isfinite(values).all(axis=1)]
+    columns = values.shape[1]
+    others = {}
+    if len(seen) and columns % 9 == 0:
+        matrices = seen.reshape(-1, 3, 3)
+        others["rotation matrices"] = matrices @ matrices.mT - np.eye(3)
+    if len(seen) and columns % 4 == 0:
+        others["quaternions"] = np.linalg.norm(seen.reshape(-1, 4), axis=1) - 1.0
+    for name, error in others.items():
+        if np.abs(error).max() < _UNITY:
+            expected, advice = (
+                "rotation vectors",
+                "convert them, with scipy's Rotation for instance",
+            )
+            raise FormatError(
+                file, f"{expected} in {poses.name!r}", f"{columns} numbers of {name}", advice
+            )
 
 
 def _read_first(

@@ -111,9 +111,10 @@ def _encode_coordinates(like: Path, layout: C3DLayout, values: Frames) -> NDArra
     held = values.clip(low, high)
     beyond = values[np.abs(values - held) > max(layout.scale, 0.0) / 2.0]  # they are rounded, too
     if len(beyond):
+        most = beyond[np.abs(beyond).argmax()]
         warnings.warn(
             f"{like.name}: expected coordinates from {low:g} to {high:g}, which the file can "
-            f"store, got {len(beyond)} beyond, up to {beyond[np.abs(beyond).argmax()]:g}, which are "
+            f"store, got {len(beyond)} beyond, up to {most:g}, which are "
             "written as the nearest of these; to keep them, export the recording as C3D with "
             "floating-point numbers, and fill that",
             FormatWarning,

@@ -6,6 +6,7 @@ import zipfile
 import numpy as np
 import pytest
 from format_files import poses, sample
+from scipy.spatial.transform import Rotation
 
 from mocapbench.datasets import FormatError, NPZFormat, frame_rate
 
@@ -148,3 +149,26 @@ def test_an_archive_that_is_cut_short(given, keep):
     given.write_bytes(given.read_bytes()[:keep])
     with pytest.raises(FormatError, match=r"expected an archive of NumPy arrays, got .*; save it"):
         NPZ.read(given)
+
+
+def matrices(n_frames, n_joints):
+    vectors = np.random.default_rng(0).normal(size=(n_frames * n_joints, 3))
+    return Rotation.from_rotvec(vectors)
+
+
+OTHERS = {
+    "matrices": (lambda r: r.as_matrix().reshape(8, 24, 3, 3), "row of three numbers"),
+    "matrices, flat": (lambda r: r.as_matrix().reshape(8, 216), "216 numbers of rotation matrices"),
+    "quaternions": (lambda r: r.as_quat().reshape(8, 24, 4), "row of three numbers"),
+    "quaternions, flat": (lambda r: r.as_quat().reshape(8, 96), "96 numbers of quaternions"),
+    "six numbers": (lambda r: r.as_matrix()[:, :2].reshape(8, 24, 6), "row of three numbers"),
+    "two people": (lambda r: r.as_rotvec().reshape(2, 4, 72), "row of three numbers"),
+}
+
+
+@pytest.mark.parametrize("kind", OTHERS)
+def test_rotations_that_are_no_vectors_are_refused(save, kind):
+    change, complaint = OTHERS[kind]
+    path = save(poses=change(matrices(8, 24)), fps=np.array(30))
+    with pytest.raises(FormatError, match=complaint):
+        NPZ.read(path)

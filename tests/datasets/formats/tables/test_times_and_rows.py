@@ -140,9 +140,7 @@ def test_a_clock_knows_noon(read):
 
 def test_a_word_among_times_of_a_clock_is_named(read):
     rows = clock(CLOCKS["ISO"], 0.0)
-    with pytest.raises(
-        FormatError, match="line 4: expected a time such as '2026.*, got 'soon'; co"
-    ):
+    with pytest.raises(FormatError, match=r"line 4: expected a time .* got 'soon'; correct"):
         read("\n".join(["time,hip", *rows[:2], "soon,1", *rows[3:], ""]))
 
 
