@@ -121,7 +121,10 @@ def _read_input_file(
     alike = tuple(_match_channels(one, recording, results) for one, _ in train.values())
     check_alike([recording, *alike])
     of_train = (f"{other.name}: {text}" for other, (_, said) in train.items() for text in said)
-    request = select(recording, entries, alike, results)
+    try:
+        request = select(recording, entries, alike, results)
+    except NothingToFillError as error:
+        raise NothingToFillError(f"{error}{reading.suggest_likelihoods(path)}") from None
     return InputFile(path, file, request, alike, (*remarks, *of_train))
 
 

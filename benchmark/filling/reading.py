@@ -49,6 +49,12 @@ class Reading(NamedTuple):
         mask, remarks = self.missing(likely)
         return unwrap_angles(likely.hide(mask)), remarks
 
+    def suggest_likelihoods(self, path: Path) -> str:
+        """Return what to add to a message that nothing is hidden, if the file has likelihoods."""
+        if self.min_likelihood is not None or self.format_of(path).likelihoods(path) is None:
+            return ""
+        return "; --min-likelihood 0.6, for instance, fills what the file itself finds less likely"
+
     def _hide_unlikely(self, path: Path, recording: Recording) -> Recording:
         if self.min_likelihood is None:
             return recording

@@ -292,6 +292,18 @@ def long_rows(numbered=False, likely=True):
     return Table("long.csv", join(rows, end="\n"), xyz(names=names), ("",) * 15, values)
 
 
+def isen():
+    """iSen: times before each group of angles, which may repeat."""
+    values = np.round(np.random.default_rng(7).normal(size=(N, 4)).cumsum(axis=0), 5)
+    values[GAP, 1:3] = np.nan
+    rows = [["Tiempo", "Flexión cadera::Y", "Rotación::Y", "Tiempo", "Rotación::Y", "Giro::Y"]]
+    for k in range(N):
+        row = cells(values[k], digits=5)
+        rows.append([f"{TIMES[k]:g}", *row[:2], f"{TIMES[k]:g}", *row[2:]])
+    names = ("Flexión cadera::Y", "Rotación::Y", "Rotación::Y-2", "Giro::Y")
+    return Table("isen.csv", join(rows, end="\n"), names, ("",) * 4, values)
+
+
 def sleap():
     """SLEAP, with a row for each track of a frame, of which the second one is lost in the gap."""
     values = positions(n_axes=2)[:, :8]
@@ -345,5 +357,6 @@ TABLES = {
     "long": long_rows(),
     "long, numbered": long_rows(numbered=True),
     "sleap": sleap(),
+    "isen": isen(),
     "freemocap": wide(),
 }

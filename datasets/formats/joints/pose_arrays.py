@@ -166,18 +166,14 @@ def _check_rotation_vectors(file: str, poses: _Array) -> None:
     others = {}
     if len(seen) and columns % 9 == 0:
         matrices = seen.reshape(-1, 3, 3)
-        others["rotation matrices"] = matrices @ matrices.mT - np.eye(3)
+        others["rotation matrices"] = matrices @ matrices.transpose(0, 2, 1) - np.eye(3)
     if len(seen) and columns % 4 == 0:
         others["quaternions"] = np.linalg.norm(seen.reshape(-1, 4), axis=1) - 1.0
     for name, error in others.items():
         if np.abs(error).max() < _UNITY:
-            expected, advice = (
-                "rotation vectors",
-                "convert them, with scipy's Rotation for instance",
-            )
-            raise FormatError(
-                file, f"{expected} in {poses.name!r}", f"{columns} numbers of {name}", advice
-            )
+            expected, got = f"rotation vectors in {poses.name!r}", f"{columns} numbers of {name}"
+            advice = "convert them, with Rotation of scipy for instance"
+            raise FormatError(file, expected, got, advice)
 
 
 def _read_first(

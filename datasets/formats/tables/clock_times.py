@@ -42,7 +42,8 @@ def clock_seconds(cells: Sequence[str]) -> Frames:
     seconds = np.array([_seconds_of_day(cell) for cell in cells])
     steps = np.diff(seconds)
     days = np.cumsum(np.where(steps < -_DAY / 2, _DAY, 0.0))
-    return seconds + np.concatenate([[0.0], days])[: len(seconds)]
+    after: Frames = seconds + np.concatenate([[0.0], days])[: len(seconds)]
+    return after
 
 
 def set_clock(like: str, seconds: float) -> str:

@@ -203,6 +203,17 @@ _STORAGE = Dialect(
     suffixes=(".mot", ".sto"),
 )
 
+_NAMES_OF_ISEN = rf"(?:Tiempo|Time|Temps|Zeit){_S}[^\n]*::Y(?:{_S}|\n)"
+_ISEN = Dialect(
+    program="iSen",
+    sign=_NAMES_OF_ISEN,
+    ends=_NAMES_OF_ISEN.replace(r"\n)", "|$)"),
+    ends_with="Tiempo,Hip::Y",
+    columns=_NAMES_OF_ISEN.replace(r"\n)", "|$)"),
+    # It does not say the units; panels of a page may show the same angle.
+    sorts=((r".+", ""),),
+)
+
 _AXES_BELOW = rf"(?:[^\n,;\t]*{_S}){{1,3}}[Xx]{_S}[Yy]\b"
 _TWO_LINES = Dialect(
     program="names above axes",
@@ -229,6 +240,7 @@ DIALECTS = (
     _OTHERS_OF_QTM,
     _QTM,
     _DEEPLABCUT,
+    _ISEN,
     _COORDINATES,
     _STORAGE,
     _TWO_LINES,

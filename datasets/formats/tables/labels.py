@@ -50,7 +50,7 @@ def label_columns(dialect: Dialect, rows: _Rows, fact: Callable[[str], str]) -> 
     length = _unit(fact(dialect.length_by)) or dialect.length
     units = {"length": length, "angle": _unit(fact(dialect.angle_by)) or dialect.angle, "": ""}
     if dialect.sorts:
-        return [_label_whole_name(dialect, name, units) for name in rows["axes"]]
+        return _number_repetitions(_label_whole_name(dialect, name, units) for name in rows["axes"])
     if units["length"] == "px" and "z" in rows["axes"]:
         units["length"] = ""  # positions in space, of which no unit is stated
     return _number_repetitions(_label_axes(rows, units))
@@ -138,6 +138,7 @@ def _number_repetitions(labels: Iterable[Label]) -> list[Label]:
     for label in labels:
         seen[label.name] += 1
         count, (name, dot, axis) = seen[label.name], label.name.rpartition(".")
-        repeated = count > 1 and not label.left_alone
-        numbered.append(label._replace(name=f"{name}-{count}{dot}{axis}") if repeated else label)
+        new = f"{name}-{count}.{axis}" if dot else f"{label.name}-{count}"
+        repeated = count > 1 and not (label.left_alone or is_index(label.name))
+        numbered.append(label._replace(name=new) if repeated else label)
     return numbered

@@ -230,6 +230,7 @@ def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
     is_number = [number or k in clocks for k, number in enumerate(is_number)]
     columns = sort_columns(names, is_number, left_alone)
     _check_filled(file, head, columns, len(table.rows))
+    columns = _leave_other_times(table, columns)
     wanted = {*columns.channels, *columns.likelihoods.values(), *_index_columns(columns)}
     read = sorted(wanted - clocks.keys())
     values = table.numbers(read)
@@ -273,6 +274,31 @@ def _are_labelled(table: TextTable, head: Head) -> list[bool]:
         looks_numeric(shown.get(k) or "0") if is_index(label.name) else not label.left_alone
         for k, label in enumerate(head.labels)
     ]
+
+
+def _leave_other_times(table: TextTable, columns: TableColumns) -> TableColumns:
+    """Return the columns without those behind a repeated column of times that has other times.
+
+    iSen writes times before each group of angles, and those of its sensors have other rates.
+    """
+    name = None if columns.time is None else table.names[columns.time]
+    repeated = [k for k, other in enumerate(table.names) if other == name]
+    if len(repeated) < 2:
+        return columns
+    times = table.numbers(repeated).T
+    same = [np.array_equal(times[0], other, equal_nan=True) for other in times]
+    group_of = np.searchsorted(repeated, range(len(table.names)), side="right") - 1
+    other = [k for k in columns.channels if not same[max(group_of[k], 0)]]
+    if other:
+        more = f" and {len(other) - 1} more" if len(other) > 1 else ""
+        warnings.warn(
+            f"{table.file}: left out, as their times are not those of the first column: "
+            f"{table.names[other[0]]}{more}",
+            FormatWarning,
+            stacklevel=2,
+        )
+    channels = tuple(k for k in columns.channels if k not in other)
+    return columns._replace(channels=channels)
 
 
 def _read_clocks(table: TextTable, is_number: Sequence[bool]) -> dict[int, Frames]:

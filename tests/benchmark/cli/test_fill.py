@@ -519,6 +519,15 @@ def test_points_that_the_file_finds_unlikely_are_filled_too(cli, tmp_path, out):
     assert "filled 10 entries in 1 gap" in cli.printed
 
 
+def test_a_file_without_gaps_that_has_likelihoods_names_the_option(cli, tmp_path, out):
+    """DeepLabCut gives a position for every frame, however unlikely."""
+    path = tmp_path / "video.csv"
+    path.write_text(vendor_tables.deeplabcut().text.replace(",,", ",7,7"))
+    assert cli("fill", path, "--rate", 100, "--model", "linear", "--out", out) == 2
+    said = "got all entries visible; name what to fill with --frames, such as 120:180; "
+    assert f"{said}--min-likelihood 0.6, for instance," in " ".join(cli.printed.split())
+
+
 def test_likelihoods_that_are_not_there_are_refused(cli, walk, out):
     assert cli("fill", walk, "--min-likelihood", 0.5, "--out", out) == 2
     assert "expected a column of likelihoods for --min-likelihood, such as" in cli.printed

@@ -128,13 +128,11 @@ def test_a_bvh_file_by_another_writer(tmp_path):
 def test_angles_exported_by_isen(samples, tmp_path):
     given = tmp_path / "angles.csv"
     lines = (samples / "iSen_angles.csv").read_text(encoding="utf-8").splitlines()
-    names = [
-        f"{k} {name}" if name != "Tiempo" or k else "time"
-        for k, name in enumerate(lines[0].split(","))
-    ]
-    given.write_text("\n".join([",".join(names), *lines[1:200]]), encoding="utf-8")
+    given.write_text("\n".join(lines[:200]), encoding="utf-8")
     angles = CSVFormat().read(given)
-    assert len(angles.times) == 199
+    assert angles.values.shape == (199, 67)
+    assert frame_rate(angles) == pytest.approx(100.0, rel=1e-3)
+    assert {"Rotación pelvis::Y", "Rotación pelvis::Y-3"} < {*angles.channels}
     filled = angles.with_values(np.where(angles.visible, angles.values, 1.5))
     CSVFormat().write(tmp_path / "out.csv", filled, like=given)
     before, after = (
@@ -146,6 +144,18 @@ def test_angles_exported_by_isen(samples, tmp_path):
         for row, other in zip(before, after, strict=True)
         for one, two in zip(row, other, strict=True)
     )
+
+
+def test_sensors_of_isen_that_have_other_times_are_left_alone(samples, tmp_path):
+    given, out = tmp_path / "sensors.csv", tmp_path / "out.csv"
+    lines = (samples / "iSen_sensors.csv").read_text(encoding="utf-8").splitlines()
+    given.write_text("\n".join(lines[:200]), encoding="utf-8")
+    with pytest.warns(UserWarning, match="times are not those of the first column: BOLT.* 64 more"):
+        sensors = CSVFormat().read(given)
+    assert sensors.values.shape == (199, 30)
+    with pytest.warns(UserWarning, match="times are not those"):
+        CSVFormat().write(out, sensors, like=given)
+    assert out.read_bytes() == given.read_bytes()
 
 
 def test_a_table_of_nexus_has_the_positions_of_the_c3d_file(samples, jump):
