@@ -10,9 +10,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.tables.columns import is_time
+from mocapbench.datasets.formats.text.rows import TextTable
 from mocapbench.datasets.recording import Frames
 
-__all__ = ["clock_seconds", "is_clock", "set_clock"]
+__all__ = ["is_clock", "read_clocks", "set_clock"]
 
 _CLOCK = re.compile(
     r"""(?P<before>\s*(?:\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}[T\s]+)?)
@@ -21,6 +24,28 @@ _CLOCK = re.compile(
     re.VERBOSE | re.IGNORECASE,
 )
 _MINUTE, _HOUR, _DAY = 60.0, 3600.0, 86400.0
+
+
+def read_clocks(table: TextTable, is_number: Sequence[bool]) -> dict[int, Frames]:
+    """Return the column of times as a clock shows them, in seconds, if no other column has times.
+
+    Raises
+    ------
+    FormatError
+        If one of its cells is no time.
+    """
+    named = [k for k, name in enumerate(table.names) if is_time(name)]
+    if any(is_number[k] for k in named) or not (named and table.rows):
+        return {}
+    cells = table.texts(named[:1])[named[0]]
+    if not is_clock(cells[0]):
+        return {}
+    seconds = _clock_seconds(cells)
+    for row in np.flatnonzero(np.isnan(seconds))[:1]:
+        expected, advice = f"a time such as {cells[0]!r}", "correct the time"
+        line = table.rows[int(row)] + 1
+        raise FormatError(table.file, expected, repr(cells[row][:60]), advice, line)
+    return {named[0]: seconds}
 
 
 def is_clock(cell: str) -> bool:
@@ -37,7 +62,7 @@ def is_clock(cell: str) -> bool:
     return _CLOCK.fullmatch(cell) is not None
 
 
-def clock_seconds(cells: Sequence[str]) -> Frames:
+def _clock_seconds(cells: Sequence[str]) -> Frames:
     """Return the seconds of times of the day, which go on behind midnight; NaN where none is."""
     seconds = np.array([_seconds_of_day(cell) for cell in cells])
     steps = np.diff(seconds)

@@ -60,6 +60,11 @@ class TableColumns(NamedTuple):
     likelihoods: Mapping[int, int]
     """From those of coordinates to the one that says how likely these are."""
 
+    @property
+    def telling_frames(self) -> list[int]:
+        """Those of times and of frames that there are."""
+        return [column for column in (self.time, self.frame) if column is not None]
+
 
 def is_index(name: str) -> bool:
     """Return whether a column of this name has times or counts frames."""

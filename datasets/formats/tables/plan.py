@@ -10,10 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.tables.columns import TableColumns
 from mocapbench.datasets.formats.text.numbers import looks_numeric
+from mocapbench.datasets.formats.text.rows import TextTable
 from mocapbench.datasets.recording import Frames
 
-__all__ = ["RowPlan", "is_key", "plan_long", "plan_wide"]
+__all__ = ["RowPlan", "is_key", "plan_long", "plan_rows", "plan_wide"]
 
 _KEY = re.compile(
     r"""(?:(?:marker|keypoint|key[ _]point|landmark|joint|node|point|body[ _]?part|part|segment|
@@ -35,6 +37,27 @@ cells that all its rows share, by their columns; and the columns of them that te
 def is_key(name: str) -> bool:
     """Return whether a column of this name says of which marker, or whom, a row is."""
     return _KEY.fullmatch(name.strip()) is not None
+
+
+def plan_rows(
+    table: TextTable, columns: TableColumns, numbers: Mapping[int, Frames]
+) -> tuple[RowPlan, TableColumns]:
+    """Return where the frames are, and the columns but those that tell rows of a frame apart."""
+    keys = [k for k in columns.channels if is_key(table.names[k])] + list(columns.left_out)
+    index = [numbers[column] for column in columns.telling_frames]
+    if not index:
+        _check_keys(table, keys)
+    rising = columns.time is not None and (np.diff(index[0]) > 0).all()
+    # Times repeat also where they are rounded, but not if a column names markers.
+    rounded = columns.frame is None and not any(is_key(table.names[k]) for k in keys)
+    if not index or rising or rounded or not _repeats(index[-1]):
+        apart = {k for k in keys if k in numbers and _is_constant(numbers[k])}
+        channels = tuple(column for column in columns.channels if column not in apart)
+        return plan_wide(len(table.rows)), columns._replace(channels=channels)
+    plan = plan_long(table.file, index[-1], table.texts(keys), table.rows)
+    shared = {column for group in plan[1] for column in group}
+    channels = tuple(column for column in columns.channels if column not in shared)
+    return plan, columns._replace(channels=channels)
 
 
 def plan_wide(n_rows: int) -> RowPlan:
@@ -121,3 +144,27 @@ def _ambiguous(
         "'keypoint'",
         lines[again] + 1,
     )
+
+
+def _check_keys(table: TextTable, keys: Iterable[int]) -> None:
+    """Refuse rows of several markers where nothing says of which frames they are."""
+    for column in (key for key in keys if is_key(table.names[key])):
+        cells = [table.row(line)[column] for line in table.rows]
+        if 1 < len({*cells}) < len(cells):
+            raise FormatError(
+                table.file,
+                "a column 'frame' in a table with a row for each marker of each frame",
+                f"none beside {table.names[column]!r}",
+                "add it, or write one row a frame",
+                line=1,
+            )
+
+
+def _repeats(index: Frames) -> bool:
+    known = index[~np.isnan(index)]
+    return len(np.unique(known)) < len(known)
+
+
+def _is_constant(values: Frames) -> bool:
+    """Return whether no two values differ, as where all rows are of one marker or person."""
+    return len(np.unique(values[~np.isnan(values)])) < 2

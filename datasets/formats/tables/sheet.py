@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from sys import intern
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +13,9 @@ from numpy.typing import NDArray
 from mocapbench.datasets.formats.building import recording_of
 from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.missing_rows import count_missing_rows, warn_of_missing_rows
-from mocapbench.datasets.formats.tables.clock_times import clock_seconds, is_clock
+from mocapbench.datasets.formats.tables.clock_times import is_clock, read_clocks
 from mocapbench.datasets.formats.tables.columns import (
     TableColumns,
-    is_index,
-    is_time,
     sort_columns,
     split_unit,
     time_unit,
@@ -27,9 +24,9 @@ from mocapbench.datasets.formats.tables.columns import (
 from mocapbench.datasets.formats.tables.dialects import PLAIN
 from mocapbench.datasets.formats.tables.frame_times import FrameTimes
 from mocapbench.datasets.formats.tables.heads import Head, read_head
-from mocapbench.datasets.formats.tables.kinds import are_numbers
+from mocapbench.datasets.formats.tables.kinds import are_labelled, are_numbers, leave_other_times
 from mocapbench.datasets.formats.tables.labels import LENGTHS
-from mocapbench.datasets.formats.tables.plan import RowPlan, is_key, plan_long, plan_wide
+from mocapbench.datasets.formats.tables.plan import plan_rows
 from mocapbench.datasets.formats.text.lines import read_lines
 from mocapbench.datasets.formats.text.numbers import looks_numeric
 from mocapbench.datasets.formats.text.rows import TextTable
@@ -216,32 +213,43 @@ def read_sheet(path: Path) -> Sheet:
 
 
 def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
+    table = _table_below(file, lines, head)
+    columns, clocks = _tell_columns(table, head)
+    read = sorted(
+        {*columns.channels, *columns.likelihoods.values(), *columns.telling_frames} - {*clocks}
+    )
+    values = table.numbers(read)
+    numbers = {column: values[:, place] for place, column in enumerate(read)} | clocks
+    (rows, groups, named_by), columns = plan_rows(table, columns, numbers)
+    keys = {column for group in groups for column in group}
+    if head.dialect is PLAIN:
+        warn_of_text(file, [table.names[k] for k in columns.left_out if k not in keys])
+    _compare_counts(file, head, len(values))
+    below = lines[head.stop :]
+    return Sheet(table, below, head, columns, numbers, rows, groups, named_by)
+
+
+def _table_below(file: str, lines: Sequence[str], head: Head) -> TextTable:
+    """Return the rows below a head."""
     names = [label.name for label in head.labels]
     _check_named(file, head, names)
     width = len(names)
     while width > 1 and not names[width - 1] and head.dialect is not PLAIN:
         width -= 1  # a separator may end the line
-    above = lines[: head.stop]
     cells, decimal = head.notation
-    table = TextTable(file, above, head.start, cells, width, width, decimal, names)
-    is_number = are_numbers(table) if head.dialect is PLAIN else _are_labelled(table, head)
+    return TextTable(file, lines[: head.stop], head.start, cells, width, width, decimal, names)
+
+
+def _tell_columns(table: TextTable, head: Head) -> tuple[TableColumns, dict[int, Frames]]:
+    """Return what the columns are, and the seconds of the one that has the times of a clock."""
+    known = head.dialect is not PLAIN
+    is_number = are_labelled(table, head.labels) if known else are_numbers(table)
     left_alone = frozenset(k for k, label in enumerate(head.labels) if label.left_alone)
-    clocks = _read_clocks(table, is_number)
+    clocks = read_clocks(table, is_number)
     is_number = [number or k in clocks for k, number in enumerate(is_number)]
-    columns = sort_columns(names, is_number, left_alone)
-    _check_filled(file, head, columns, len(table.rows))
-    columns = _leave_other_times(table, columns)
-    wanted = {*columns.channels, *columns.likelihoods.values(), *_index_columns(columns)}
-    read = sorted(wanted - clocks.keys())
-    values = table.numbers(read)
-    numbers = {column: values[:, place] for place, column in enumerate(read)} | clocks
-    (rows, groups, named_by), columns = _plan_rows(table, columns, numbers)
-    keys = {column for group in groups for column in group}
-    if head.dialect is PLAIN:
-        warn_of_text(file, [names[k] for k in columns.left_out if k not in keys])
-    _compare_counts(file, head, len(values))
-    below = lines[head.stop :]
-    return Sheet(table, below, head, columns, numbers, rows, groups, named_by)
+    columns = sort_columns(table.names, is_number, left_alone)
+    _check_filled(table.file, head, columns, len(table.rows))
+    return leave_other_times(table, columns), clocks
 
 
 def _check_filled(file: str, head: Head, columns: TableColumns, n_rows: int) -> None:
@@ -264,122 +272,6 @@ def _check_named(file: str, head: Head, names: Sequence[str]) -> None:
             "it again, with the whole head",
             line=1,
         )
-
-
-def _are_labelled(table: TextTable, head: Head) -> list[bool]:
-    """Return which columns are read as numbers: channels, and what counts frames or times."""
-    first = table.row(table.rows[0]) if table.rows else []
-    shown = dict(enumerate(cell.strip() for cell in first))
-    return [
-        looks_numeric(shown.get(k) or "0") if is_index(label.name) else not label.left_alone
-        for k, label in enumerate(head.labels)
-    ]
-
-
-def _leave_other_times(table: TextTable, columns: TableColumns) -> TableColumns:
-    """Return the columns without those behind a repeated column of times that has other times.
-
-    iSen writes times before each group of angles, and those of its sensors have other rates.
-    """
-    name = None if columns.time is None else table.names[columns.time]
-    repeated = [k for k, other in enumerate(table.names) if other == name]
-    if len(repeated) < 2:
-        return columns
-    times = table.numbers(repeated).T
-    same = [np.array_equal(times[0], other, equal_nan=True) for other in times]
-    group_of = np.searchsorted(repeated, range(len(table.names)), side="right") - 1
-    other = [k for k in columns.channels if not same[max(group_of[k], 0)]]
-    if other:
-        more = f" and {len(other) - 1} more" if len(other) > 1 else ""
-        warnings.warn(
-            f"{table.file}: left out, as their times are not those of the first column: "
-            f"{table.names[other[0]]}{more}",
-            FormatWarning,
-            stacklevel=2,
-        )
-    channels = tuple(k for k in columns.channels if k not in other)
-    return columns._replace(channels=channels)
-
-
-def _read_clocks(table: TextTable, is_number: Sequence[bool]) -> dict[int, Frames]:
-    """Return the column of times as a clock shows them, in seconds, if no other column has times.
-
-    Raises
-    ------
-    FormatError
-        If one of its cells is no time.
-    """
-    named = [k for k, name in enumerate(table.names) if is_time(name)]
-    if any(is_number[k] for k in named) or not (named and table.rows):
-        return {}
-    cells = _cells_of(table, named[:1])[named[0]]
-    if not is_clock(cells[0]):
-        return {}
-    seconds = clock_seconds(cells)
-    for row in np.flatnonzero(np.isnan(seconds))[:1]:
-        expected, advice = f"a time such as {cells[0]!r}", "correct the time"
-        line = table.rows[int(row)] + 1
-        raise FormatError(table.file, expected, repr(cells[row][:60]), advice, line)
-    return {named[0]: seconds}
-
-
-def _index_columns(columns: TableColumns) -> list[int]:
-    return [column for column in (columns.time, columns.frame) if column is not None]
-
-
-def _plan_rows(
-    table: TextTable, columns: TableColumns, numbers: Mapping[int, Frames]
-) -> tuple[RowPlan, TableColumns]:
-    """Return where the frames are, and the columns but those that tell rows of a frame apart."""
-    keys = [k for k in columns.channels if is_key(table.names[k])] + list(columns.left_out)
-    index = [numbers[column] for column in _index_columns(columns)]
-    if not index:
-        _check_keys(table, keys)
-    rising = columns.time is not None and (np.diff(index[0]) > 0).all()
-    # Times repeat also where they are rounded, but not if a column names markers.
-    rounded = columns.frame is None and not any(is_key(table.names[k]) for k in keys)
-    if not index or rising or rounded or not _repeats(index[-1]):
-        apart = {k for k in keys if k in numbers and _is_constant(numbers[k])}
-        channels = tuple(column for column in columns.channels if column not in apart)
-        return plan_wide(len(table.rows)), columns._replace(channels=channels)
-    plan = plan_long(table.file, index[-1], _cells_of(table, keys), table.rows)
-    shared = {column for group in plan[1] for column in group}
-    channels = tuple(column for column in columns.channels if column not in shared)
-    return plan, columns._replace(channels=channels)
-
-
-def _cells_of(table: TextTable, columns: Sequence[int]) -> dict[int, list[str]]:
-    """Return the cells of some columns, of which equal ones take memory once."""
-    cells: dict[int, list[str]] = {column: [] for column in columns}
-    for line in table.rows:
-        row = table.row(line)
-        for column in columns:
-            cells[column].append(intern(row[column]))
-    return cells
-
-
-def _is_constant(values: Frames) -> bool:
-    """Return whether no two values differ, as where all rows are of one marker or person."""
-    return len(np.unique(values[~np.isnan(values)])) < 2
-
-
-def _repeats(index: Frames) -> bool:
-    known = index[~np.isnan(index)]
-    return len(np.unique(known)) < len(known)
-
-
-def _check_keys(table: TextTable, keys: Iterable[int]) -> None:
-    """Refuse rows of several markers where nothing says of which frames they are."""
-    for column in (key for key in keys if is_key(table.names[key])):
-        cells = [table.row(line)[column] for line in table.rows]
-        if 1 < len({*cells}) < len(cells):
-            raise FormatError(
-                table.file,
-                "a column 'frame' in a table with a row for each marker of each frame",
-                f"none beside {table.names[column]!r}",
-                "add it, or write one row a frame",
-                line=1,
-            )
 
 
 def _compare_counts(file: str, head: Head, n_rows: int) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass
+from sys import intern
 
 import numpy as np
 
@@ -97,6 +98,15 @@ class TextTable:
             except ValueError:
                 raise self._not_a_number(row, columns, index) from None
         return np.frombuffer(values, dtype=np.float64).reshape(-1, len(columns))
+
+    def texts(self, columns: Sequence[int]) -> dict[int, list[str]]:
+        """Return the cells of some columns, of which equal ones take memory once."""
+        cells: dict[int, list[str]] = {column: [] for column in columns}
+        for index in self.rows:
+            row = self.row(index)
+            for column in columns:
+                cells[column].append(intern(row[column]))
+        return cells
 
     def with_numbers(self, columns: Sequence[int], values: FrameByChannel, new: Mask) -> list[str]:
         """Return the lines of the file with the ``new`` (N, columns) cells replaced."""
