@@ -210,7 +210,7 @@ _ISEN = Dialect(
     ends=_NAMES_OF_ISEN.replace(r"\n)", "|$)"),
     ends_with="Tiempo,Hip::Y",
     columns=_NAMES_OF_ISEN.replace(r"\n)", "|$)"),
-    # It does not say the units; panels of a page may show the same angle.
+    # It does not say the units; several graphs may show the same angle.
     sorts=((r".+", ""),),
 )
 
