@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import even_times, recording_of
-from mocapbench.datasets.formats.errors import FormatWarning
+from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.markers.c3d_layout import C3DLayout, find_layout
 from mocapbench.datasets.formats.markers.c3d_parameters import C3DParameters, read_parameters
 from mocapbench.datasets.formats.markers.c3d_points import (
@@ -52,6 +52,9 @@ class C3DFormat(Format):
         """Return the recording with the values that the file has."""
         parameters = read_parameters(path)
         layout = find_layout(path, parameters)
+        if not layout.n_points:
+            advice = "export the recording again, with its markers"
+            raise FormatError(path.name, "positions of points", "analogue samples alone", advice)
         if layout.scale > 0:
             warn_of_scales(path.name, parameters)
         labels, groups = _name_points(layout, parameters)

@@ -230,6 +230,16 @@ def test_results_of_a_model_are_known_with_and_without_the_subject(tmp_path):
     assert named[::3] == ("Anna:KNEE_A.x", "Anna:KNEE_F.x", "Bob:KNEE_A.x")
 
 
+@pytest.mark.parametrize("computer", ["Intel", "DEC", "MIPS"])
+def test_a_file_of_force_plates_alone_is_no_recording_of_motion(computer, tmp_path):
+    labels = {"POINT:LABELS": None, "POINT:DESCRIPTIONS": None}
+    path = write_bytes(tmp_path / "given.c3d", np.zeros((9, 0, 3)), computer, parameters=labels)
+    with pytest.raises(
+        FormatError, match="positions of points, got analogue samples alone; export"
+    ):
+        C3D.read(path)
+
+
 def test_a_file_of_no_scale_is_refused(tmp_path):
     path = write_bytes(
         tmp_path / "given.c3d", positions(), header={7: 0, 8: 0}, parameters={"POINT:SCALE": None}
