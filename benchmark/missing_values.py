@@ -13,7 +13,7 @@ from math import isfinite, nan
 
 import numpy as np
 
-from mocapbench.baselines.common.markers import markers_of
+from mocapbench.baselines.common.markers import markers_of, points_of
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.basics.words import format_count, join_names
@@ -102,7 +102,9 @@ def undecided_values(recording: Recording) -> str:
     for name, start, stop, _ in _find_held(recording):
         held[name] = max(held.get(name, 0), stop - start)
     sentences = (
-        _count_frames(zeros, "exactly 0, 0, 0 in {} and elsewhere in others", "zeros"),
+        _count_frames(
+            zeros, f"exactly {_zeros_of(recording)} in {{}} and elsewhere in others", "zeros"
+        ),
         _count_frames(held, "exactly where the frame before has it for {}", "held"),
     )
     return " ".join(filter(None, sentences))
@@ -129,7 +131,7 @@ def _tell_zeros(recording: Recording) -> Told:
 
     If they stand for missing values of one marker, they do so for all of the file.
     """
-    markers = markers_of(recording.channels, recording.units)
+    markers = points_of(recording.channels, recording.units)
     rows = _zero_rows(recording)
     far = {
         name: int(at.sum())
@@ -142,19 +144,26 @@ def _tell_zeros(recording: Recording) -> Told:
     for places in map(list, markers.values()):
         mask[:, places] = (recording.values[:, places] == 0.0).all(axis=1)[:, None]
     are, it_is = ("is", "it is") if len(far) == 1 else ("are", "they are")
+    where = f"exactly {_zeros_of(recording)} in {_most_frames(far)}"
     return (
         mask,
         (
-            f"{join_names([*far], _NAMED)} {are} exactly 0, 0, 0 in {_most_frames(far)}, "
-            f"far from where {it_is} before and after: {_READ_AS_MISSING}",
+            f"{join_names([*far], _NAMED)} {are} {where}, far from where {it_is} before and "
+            f"after: {_READ_AS_MISSING}",
         ),
     )
+
+
+def _zeros_of(recording: Recording) -> str:
+    """Return the origin as a sentence names it, in space or, of video, in a plane."""
+    axes = map(len, points_of(recording.channels, recording.units).values())
+    return ", ".join("0" * max(axes, default=3))
 
 
 def _zero_rows(recording: Recording) -> dict[str, Mask]:
     """Return the frames (N,) in which each marker that is elsewhere in others is at the origin."""
     found = {}
-    for name, places in markers_of(recording.channels, recording.units).items():
+    for name, places in points_of(recording.channels, recording.units).items():
         values = recording.values[:, list(places)]
         rows = (values == 0.0).all(axis=1)
         if rows.any() and (np.nan_to_num(values) != 0.0).any():
@@ -163,7 +172,7 @@ def _zero_rows(recording: Recording) -> dict[str, Mask]:
 
 
 def _is_far(values: Array, zero: Mask) -> bool:
-    """Return whether a marker (N, 3) is so far from the origin beside all zeros that none is real.
+    """Return whether a point is so far from the origin beside all zeros that none is real.
 
     Far is three times the distance of a long step of its own, for each frame to the zeros.
     """
@@ -306,9 +315,9 @@ def _repeat_last(values: Array) -> Mask:
 
 
 def _in_whole_markers(recording: Recording, mask: Mask) -> Mask:
-    """Return the mask without entries of markers of which not all three coordinates are in it."""
+    """Return the mask without entries of points of which not all coordinates are in it."""
     result = mask.copy()
-    for places in map(list, markers_of(recording.channels, recording.units).values()):
+    for places in map(list, points_of(recording.channels, recording.units).values()):
         result[:, places] = mask[:, places].all(axis=1, keepdims=True)
     return result
 

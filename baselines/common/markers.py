@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["marker_places", "markers_of"]
+__all__ = ["marker_places", "markers_of", "points_of"]
 
 _COORDINATE = re.compile(r"(.+)[._: -]([xyz])", re.IGNORECASE)
 _NO_LENGTHS = frozenset(["deg", "rad", "n", "nm", "n.m", "nmm", "n.mm", "w"])
@@ -28,15 +28,27 @@ def markers_of(channels: Sequence[str], units: Sequence[str]) -> Mapping[str, tu
     >>> markers_of(("force", "LKNE.x", "LKNE.z", "LKNE.y", "LANK.x"), ("N", *["mm"] * 4))
     {'LKNE': (1, 3, 2)}
     """
+    points = points_of(channels, units)
+    return {marker: places for marker, places in points.items() if len(places) == len("xyz")}
+
+
+def points_of(channels: Sequence[str], units: Sequence[str]) -> Mapping[str, tuple[int, ...]]:
+    """Return the places of the coordinates x, y and, if it has one, z of each point, by its name.
+
+    Examples
+    --------
+    >>> points_of(("nose.x", "nose.y", "LANK.x"), ("px", "px", "mm"))
+    {'nose': (0, 1)}
+    """
     places: dict[str, dict[str, int]] = defaultdict(dict)
     for place, (channel, unit) in enumerate(zip(channels, units, strict=True)):
         found = _COORDINATE.fullmatch(channel)
         if found and unit.lower().removesuffix("/kg") not in _NO_LENGTHS:
             places[found[1]][found[2].lower()] = place
     return {
-        marker: tuple(axes[axis] for axis in "xyz")
-        for marker, axes in places.items()
-        if len(axes) == len("xyz")
+        point: tuple(axes[axis] for axis in "xyz" if axis in axes)
+        for point, axes in places.items()
+        if {"x", "y"} <= axes.keys()
     }
 
 

@@ -61,6 +61,16 @@ def test_zeros_and_numbers_that_nothing_measures_are_told(gap, marker, value):
     assert len(remarks) == 1
 
 
+def test_zeros_of_points_in_a_video_are_told():
+    walk = walking()
+    flat = walk.select([name for name in walk.channels if not name.endswith("z")])
+    mask, remarks = tell_missing(marked(flat, slice(50, 60), slice(0, 2), 0.0))
+    expected = np.zeros(mask.shape, dtype=bool)
+    expected[50:60, :2] = True
+    assert np.array_equal(mask, expected)
+    assert "is exactly 0, 0 in 10 frames, far from where it is" in remarks[0]
+
+
 def test_zeros_between_which_no_step_is_seen_are_not_told():
     alternating = marked(walking(), slice(0, None, 2), FIRST, 0.0)
     assert not tell_missing(alternating)[0].any()

@@ -13,11 +13,13 @@ __all__ = ["format_number", "is_missing", "is_number", "looks_numeric", "numeric
 _MISSING = frozenset(
     [
         *("nan", "na", "n/a", "null", "none", "missing", "-", "--", "---", "?"),
+        *("<na>", "nat", "n.a.", "nil", "undefined", ".", "*"),
         *("#n/a", "#num!", "#value!", "#div/0!", "nan(ind)", "nan(snan)"),
+        *("#nv", "#zahl!", "#wert!", "#n/d", "#nombre!", "#valeur!"),
         *("1.#ind", "1.#ind00", "1.#qnan", "1.#qnan0", "1.#snan"),
     ]
 )
-"""Of Excel, R, Python, databases, the C library of Microsoft, and people."""
+"""Of Excel in some languages, R, Python, SAS, databases, the C library of Microsoft, and people."""
 _NUMERIC = re.compile(
     r"""\s*[+\-−]?
     (?=[.,]?\d)

@@ -131,7 +131,24 @@ def test_a_column_of_numbers_is_never_taken_for_text(read, mark, n_marked):
         read("\n".join(["time,hip,knee", *rows]))
 
 
-WORDS = ("", "NaN", "-nan", "+NAN", "NA", "n/a", "#N/A", "null", "None", "-", "--", "?", "1.#QNAN")
+WORDS = (
+    "",
+    "NaN",
+    "-nan",
+    "+NAN",
+    "NA",
+    "n/a",
+    "#N/A",
+    "null",
+    "None",
+    "-",
+    "--",
+    "?",
+    "1.#QNAN",
+    "<NA>",
+    ".",
+    "#NV",
+)
 
 
 @pytest.mark.parametrize("word", [*WORDS, "-1.#IND", "-nan(ind)", "#DIV/0!", " nan ", "missing"])
