@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.checks import check_given, check_recordings
+from mocapbench.baselines.common.cycle_settings import check_settings
 from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
 from mocapbench.baselines.functional.components import (
     cycle_moments,
     find_principal_axes,
@@ -34,7 +33,7 @@ from mocapbench.baselines.protocols import Aligner, Imputer, Inductive, Predicti
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
-__all__ = ["FAM", "check_settings"]
+__all__ = ["FAM"]
 
 
 _SAME = 1.0 + 1e-9
@@ -271,25 +270,3 @@ class FAM(Imputer, Inductive, Aligner):
         return Prediction.around(
             recording, self.scaling_.restore(mean), variance * self.scaling_.scale**2
         )
-
-
-_CHECKS: Mapping[str, Callable[[str, object], None]] = {
-    **dict.fromkeys(
-        ("n_styles", "n_harmonics", "n_restarts", "max_iter"), partial(check_count, least=1)
-    ),
-    "n_components": partial(check_count, least=0),
-    **dict.fromkeys(("smoothness", "tol"), check_positive),
-    "random_state": check_seed,
-}
-
-
-def check_settings(parameters: Mapping[str, object]) -> None:
-    """Check the parameters of a model, which have the names of those of `KFAM`.
-
-    Raises
-    ------
-    ValueError
-        If one is of the wrong type or out of range.
-    """
-    for name, value in parameters.items():
-        _CHECKS[name](name, value)

@@ -8,8 +8,8 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.alignment.aligner import check_settings
 from mocapbench.baselines.common.checks import check_recordings
+from mocapbench.baselines.common.cycle_settings import check_settings
 from mocapbench.baselines.common.prototypes import cluster_cycles
 from mocapbench.baselines.cpm import CPM
 from mocapbench.baselines.protocols import Aligner, Clusterer, StatePath

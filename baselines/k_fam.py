@@ -8,8 +8,9 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.cycle_settings import check_settings
 from mocapbench.baselines.common.prototypes import cluster_cycles
-from mocapbench.baselines.fam import FAM, check_settings
+from mocapbench.baselines.fam import FAM
 from mocapbench.baselines.protocols import Aligner, Clusterer, StatePath
 from mocapbench.datasets import Recording
 

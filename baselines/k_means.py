@@ -7,9 +7,9 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from mocapbench.baselines.alignment.aligner import check_settings
 from mocapbench.baselines.alignment.cycle_start import cycle_length
 from mocapbench.baselines.common.checks import check_recordings, check_visible
+from mocapbench.baselines.common.cycle_settings import check_settings
 from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.baselines.common.prototypes import group_rows
 from mocapbench.baselines.common.recordings import interpolate_channels, visible_moments

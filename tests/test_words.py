@@ -84,7 +84,6 @@ DROPPED = {
 EXCEPTIONS = {
     "trial": {
         r"benchmark/cli/data\.py": "recordings, as users of motion capture call them",
-        r"benchmark/inspection/recordings\.py": "recordings",
         r"benchmark/tasks/(?:hlm_recordings|missing_frames)\.py": "recordings of the CMU database",
         r"datasets/(?:gait|gait_walker|keys)\.py": "recordings of the CMU database",
         r"datasets/formats/markers/c3d_layout\.py": "the group TRIAL of a C3D file",

@@ -1,11 +1,10 @@
-"""The common estimator of models that align recordings to one cycle, and checks of parameters."""
+"""The common estimator of models that align recordings to one cycle."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
-from typing import Any, ClassVar, Self
+from collections.abc import Collection, Mapping, Sequence
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,21 +15,18 @@ from mocapbench.baselines.alignment.inference import infer_path
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.checks import check_given, check_recordings
+from mocapbench.baselines.common.cycle_settings import check_settings
 from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.validation import (
-    check_choice,
-    check_count,
-    check_flag,
-    check_positive,
-    check_seed,
-)
+from mocapbench.baselines.common.validation import check_choice
 from mocapbench.baselines.protocols import Aligner, StatePath
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
-__all__ = ["CycleAligner", "check_settings"]
+__all__ = ["CycleAligner"]
+
+_CHOICES: Mapping[str, Collection[str]] = {"prior": PRIORS, "grouping": GROUPINGS}
 
 
 class CycleAligner(Aligner):
@@ -55,7 +51,7 @@ class CycleAligner(Aligner):
             If a parameter is of the wrong type or out of range, there is no recording, channels
             differ, a name repeats, or a channel is nowhere visible.
         """
-        check_settings(self.get_params())
+        self._check_parameters()
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         ordered, places = by_name(checked), places_by_name(checked)
@@ -103,6 +99,13 @@ class CycleAligner(Aligner):
         ``places`` (K,) are those in the run.
         """
 
+    def _check_parameters(self) -> None:
+        parameters = self.get_params()
+        check_settings(parameters)
+        for name, choices in _CHOICES.items():
+            if name in parameters:
+                check_choice(name, parameters[name], choices)
+
     def _align_recording(self, recording: Recording) -> StatePath:
         if recording.name in self.fitted_:
             fitted, path = self.fitted_[recording.name]
@@ -116,33 +119,3 @@ class CycleAligner(Aligner):
 
     def _restore_units(self, values: Array) -> Array:
         return np.asarray(self.scaling_.restore(values))
-
-
-_CHECKS: Mapping[str, Callable[[str, object], None]] = {
-    **dict.fromkeys(
-        ("n_styles", "n_frames", "max_jump", "n_restarts", "max_iter", "n_inner"),
-        partial(check_count, least=1),
-    ),
-    "refine_iter": partial(check_count, least=0),
-    **dict.fromkeys(("regularisation", "closeness", "smoothness", "tol"), check_positive),
-    "learn_closeness": check_flag,
-    "prior": partial(check_choice, choices=PRIORS),
-    "grouping": partial(check_choice, choices=GROUPINGS),
-    "random_state": check_seed,
-}
-
-
-def check_settings(parameters: Mapping[str, Any]) -> None:
-    """Check the parameters of an estimator, which have the names of `CyclicAlignment` or `KMeans`.
-
-    Raises
-    ------
-    ValueError
-        If one is of the wrong type or out of range.
-    """
-    for name, check in _CHECKS.items():
-        if name in parameters:
-            check(name, parameters[name])
-    if parameters.get("n_states") is not None:
-        least = max(3, 2 * parameters["max_jump"] + 1)
-        check_count("n_states (more than twice max_jump)", parameters["n_states"], least)

@@ -156,6 +156,7 @@ FIT_PATH = [
     ("baselines.calibration.variance_check", "missing-frames", "lds"),
     ("baselines.calibration.ways", "missing-frames", "lds"),
     ("baselines.common.checks", "toy-interpolation-1", "trivial"),
+    ("baselines.common.cycle_settings", "missing-frames", "fam"),
     ("baselines.common.padded_sequences", "missing-frames", "lds"),
     ("baselines.common.recordings", "toy-interpolation-1", "trivial"),
     ("baselines.common.scaling", "toy-interpolation-1", "mohgp"),
