@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines import Replay
 from mocapbench.benchmark import METRICS, TASKS, Address, Seeds, archive_at
-from mocapbench.benchmark.problems.synthesise import Samples, SynthesiseProblem
+from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
 
 CASES = {
     "walking-synthesis": "without 38(2)",
@@ -38,7 +38,7 @@ Array = NDArray[np.float64]
 
 def scores(problem: SynthesiseProblem, samples: Array) -> dict[str, float]:
     """Return the scores of samples (S, N, D)."""
-    outcome = problem.outcome(Samples(samples))
+    outcome = problem.outcome(samples)
     metrics = map(METRICS.get, ("mlc", "mcc", "variance_ratio"))
     return {metric.name: float(metric(outcome).value) for metric in metrics}
 
