@@ -1,6 +1,6 @@
 """Helpers that more than one family of models uses.
 
-* `validation`, `checks`: checks of parameters and of recordings; `cycle_settings`: of parameters that
+* `validation`, `checks`: checks of parameters and of recordings; `cycle_settings`: checks of what
   all models of cycles have;
 * `recordings`: several of them together, their complete frames, and lines across their gaps;
 * `scaling`, `pose_units`: units in which channels count alike; `padded_sequences`: arrays of all;
