@@ -9,7 +9,7 @@ from mocapbench.benchmark.gate.reference import Reference, Series
 from mocapbench.benchmark.gate.reference_files import read_reference, write_reference
 from mocapbench.benchmark.tasks.address import Address
 
-ABOUT = {"profile": "smoke", "seed": "0", "machine": "m", "libc": "l", "BLAS": "b"} | {
+ABOUT = {"profile": "smoke", "seed": "0", "machine": "m", "libc": "l: 2", "BLAS": "b"} | {
     f"{name} version": "1" for name in ("numpy", "scipy", "scikit-learn")
 }
 characters = st.characters(codec="utf-8", exclude_characters="\r\n")

@@ -8,10 +8,16 @@ from xml.etree import ElementTree
 import pytest
 from markdown_it import MarkdownIt
 from plans import plan_of
+from rich.console import Console
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.gate.reference import Reference
+from mocapbench.benchmark.gate.documents import terminal
+from mocapbench.benchmark.gate.environment import Environment
+from mocapbench.benchmark.gate.findings import Check, Finding
+from mocapbench.benchmark.gate.reference import Reference, Series
+from mocapbench.benchmark.gate.rule import Tolerance, Verdict, judge
 from mocapbench.benchmark.gate.updating import require_updatable
+from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
@@ -315,9 +321,36 @@ def test_markdown_shows_names_as_they_are(check, tmp_path):
 
 @pytest.mark.parametrize("after", [_mse(1.0), _mse(1.1), [Status.FAILED], [Status.DATA_MISSING]])
 def test_a_check_has_passed_if_its_exit_code_is_0(check, tmp_path, after):
-    code = check({"knn": _mse(1.0)}, {"knn": after})
+    code = check({"knn": _mse(1.0)}, {"knn": after}, "--markdown", tmp_path / "m.md")
+    state = "passed" if code == 0 else f"failed, exit code {code}"
+    assert (tmp_path / "m.md").read_text().startswith(f"### Metrics: {state}\n")
     found = json.loads((tmp_path / "after" / "check.json").read_text())
     assert found["passed"] is (code == 0)
+
+
+def _table(*findings, width=200):
+    """Return the table of a check and what a terminal shows of it."""
+    table = terminal(Check(findings, Environment.SAME))
+    console = Console(width=width, markup=False)
+    with console.capture() as shown:
+        console.print(table)
+    return table, shown.get()
+
+
+@pytest.mark.parametrize("n", [1, 49, 50, 51, 60])
+def test_the_terminal_shows_fifty_rows_and_counts_the_others(n):
+    series = [Series(Address(TASK, 1, CASE, label=f"{number}"), "mse") for number in range(n)]
+    table, shown = _table(*(Finding(each, Verdict.LOST) for each in series))
+    assert table.row_count == min(n, 50)
+    assert (f"{n - 50} more" in shown) is (" more" in shown) is (n > 50)
+
+
+def test_names_are_broken_on_a_narrow_terminal_and_numbers_are_not():
+    judgement = judge([1 / 3], [2 / 3], METRICS.get("mse").loss, Tolerance())
+    long = Series(Address(TASK, 1, CASE, label="x" * 60), "mse")
+    _, shown = _table(Finding(long, Verdict.WORSE, judgement), width=70)
+    assert shown.count("x") == 60
+    assert {"worse", "0.333333", "0.666667", "+0.333"} <= set(shown.split())
 
 
 def test_metrics_share_a_row_only_where_they_have_no_number(check, tmp_path):

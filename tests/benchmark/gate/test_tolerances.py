@@ -29,6 +29,11 @@ def test_a_metrics_own_table_goes_over_the_environments(written):
     assert same["msll"] == Tolerance()
 
 
+def test_a_tolerance_may_be_zero(written):
+    path = written("[same]\nk = 0\nrelative = 0\nabsolute = 0.0\n")
+    assert read_tolerances(Environment.SAME, path)["mse"] == Tolerance(0, 0, 0)
+
+
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
