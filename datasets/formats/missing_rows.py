@@ -20,22 +20,25 @@ _MOSTLY = 0.9
 _HUGE = 1e15  # counts beyond are no whole numbers of a double
 
 
-def count_missing_rows(frames: Frames | None, times: Frames | None) -> NDArray[np.intp]:
+def count_missing_rows(
+    n_rows: int, frames: Frames | None, times: Frames | None
+) -> NDArray[np.intp]:
     """Return how many rows are missing behind each of N rows but the last, (N − 1,).
 
-    A count of frames says it, or else times, if their steps are about multiples of the usual one.
+    A count of frames says it, or else times that rise, if their steps are about multiples of the
+    usual one.
     """
+    none = np.zeros(max(n_rows - 1, 0), dtype=np.intp)
     if frames is not None and counts_frames(frames):
         return _count_within(np.diff(frames) / most_common_step(frames))
-    steps = np.diff(times) if times is not None else np.empty(0)
-    usual = np.median(steps) if len(steps) else 0.0
-    if times is None or not np.isfinite(steps).all() or not usual > 0:
-        return np.zeros(0 if times is None else len(steps), dtype=np.intp)
-    whole = np.maximum(np.round(steps / usual), 1.0)
-    regular = np.abs(steps / usual - whole) <= _REGULAR
+    steps = none if times is None else np.diff(times)
+    if not len(steps) or not (np.isfinite(steps) & (steps > 0)).all():
+        return none
+    in_usual = steps / np.median(steps)
+    regular = np.abs(in_usual - np.maximum(np.round(in_usual), 1.0)) <= _REGULAR
     if regular.mean() < _MOSTLY:
-        return np.zeros(len(steps), dtype=np.intp)
-    return _count_within(np.where(steps / usual >= _JUMP, steps / usual, 1.0))
+        return none
+    return _count_within(np.where(in_usual >= _JUMP, in_usual, 1.0))
 
 
 def warn_of_missing_rows(

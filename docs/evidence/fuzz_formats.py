@@ -2,8 +2,9 @@
 
     python docs/evidence/fuzz_formats.py 10000 walk.c3d walk.bvh
 
-Reading may give a recording or a `FormatError`, also at a rate and with rows added that are
-missing. Anything else is printed and ends with exit code 1.
+Reading may give a recording or a `FormatError`, also without a rate and with rows added that are
+missing; a recording is written with its gaps filled. Anything else is printed and ends with exit
+code 1.
 """
 
 import random
@@ -14,8 +15,11 @@ import time
 import traceback
 import warnings
 from collections import Counter
+from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+import numpy as np
 
 from mocapbench.benchmark import format_for
 from mocapbench.benchmark.testing import damage_bytes
@@ -25,9 +29,12 @@ from mocapbench.datasets import Format, FormatError, Recording
 def outcome(kind: Format, path: Path) -> str:
     """Return what reading a file gave, in a word or two."""
     try:
-        kind.with_missing_rows().read(path, 100.0)
+        recording = kind.read(path, 100.0)
         kind.likelihoods(path)
-        recording = kind.read(path)
+        for other in (kind.with_missing_rows(), kind):
+            write_filled(other, path)
+        with suppress(FormatError):  # as nothing may tell the times
+            kind.read(path)
     except FormatError as error:
         crashed = "crash of the library" in error.got
         late = "no end of reading" in error.got
@@ -36,6 +43,13 @@ def outcome(kind: Format, path: Path) -> str:
         traceback.print_exc()
         return "defect"
     return "recording" if isinstance(recording, Recording) else "defect"
+
+
+def write_filled(kind: Format, path: Path) -> None:
+    """Write a file with something in its gaps, and read that."""
+    recording, out = kind.read(path, 100.0), path.with_name(f"out{path.suffix}")
+    kind.write(out, recording.with_values(np.nan_to_num(recording.values, nan=1.5)), like=path)
+    kind.read(out, 100.0)
 
 
 def fuzz(path: Path, n_times: int) -> Counter[str]:

@@ -49,7 +49,10 @@ class ParquetFormat(Format):
         names, columns, values = _read_table(path)
         times, frames = (None if k is None else values[:, k] for k in (columns.time, columns.frame))
         _check_one_row_a_frame(path.name, names, times, frames)
-        missing, advice = count_missing_rows(frames, times), "they stay so, as in all Parquet files"
+        missing, advice = (
+            count_missing_rows(len(values), frames, times),
+            "they stay so, as in all Parquet files",
+        )
         by = "times" if frames is None else "frames"
         warn_of_missing_rows(path.name, missing, lambda row: f"row {row + 1}", by, advice)
         unit = "" if columns.time is None else time_unit(names[columns.time])

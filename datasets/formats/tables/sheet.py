@@ -137,7 +137,9 @@ class Sheet:
 
     def lacking(self) -> NDArray[np.intp]:
         """Return how many frames are missing behind each but the last (N − 1,)."""
-        return count_missing_rows(self.index(self.columns.frame), self.index(self.columns.time))
+        return count_missing_rows(
+            len(self.rows), self.index(self.columns.frame), self.index(self.columns.time)
+        )
 
     def with_lacking(self) -> Sheet:
         """Return the sheet with the frames of which there is no row.

@@ -390,3 +390,16 @@ def test_of_numbers_and_names_of_markers_the_names_tell_rows_apart(read, tmp_pat
 
 def test_anipose_counts_its_frames_as_fnum(read):
     assert read("nose_x,fnum\n1,7\n2,8\n", 30.0).channels == ("nose_x",)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "hip,knee\n1,2\n3,4\n5,6\n",
+        "frame,hip\n0,1\n,2\n5,3\n",
+        "time,hip\n0,1\n0.3,2\n0.1,3\n0.2,4\n",
+    ],
+)
+def test_where_nothing_counts_frames_no_row_is_missing(read, text):
+    with warnings.catch_warnings(action="error"):
+        assert len(read(text, 100.0, INSERTING).times) == text.count("\n") - 1
