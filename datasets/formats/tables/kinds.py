@@ -53,7 +53,7 @@ def leave_other_times(table: TextTable, columns: TableColumns) -> TableColumns:
     if len(repeated) < 2:
         return columns
     times = table.numbers(repeated).T
-    same = [np.array_equal(times[0], other, equal_nan=True) for other in times]
+    same = [((times[0] == other) | np.isnan(other)).all() for other in times]
     group_of = np.searchsorted(repeated, range(len(table.names)), side="right") - 1
     other = [k for k in columns.channels if not same[max(group_of[k], 0)]]
     if other:

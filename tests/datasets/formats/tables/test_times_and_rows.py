@@ -403,3 +403,12 @@ def test_anipose_counts_its_frames_as_fnum(read):
 def test_where_nothing_counts_frames_no_row_is_missing(read, text):
     with warnings.catch_warnings(action="error"):
         assert len(read(text, 100.0, INSERTING).times) == text.count("\n") - 1
+
+
+def test_rows_that_are_added_to_groups_with_times_of_their_own_are_read_again(read, tmp_path):
+    rows = [f"{k / 100},{k}.5,{k / 100},{k}.25" for k in range(9) if k != 4]
+    walk = read("\n".join(["Tiempo,a::Y,Tiempo,b::Y", *rows, ""]), kind=INSERTING)
+    INSERTING.write(
+        tmp_path / "out.csv", walk.with_values(np.nan_to_num(walk.values)), tmp_path / "walk.csv"
+    )
+    assert CSV.read(tmp_path / "out.csv").channels == walk.channels == ("a::Y", "b::Y")
