@@ -27,6 +27,7 @@ class ExitCode(IntEnum):
     JOBS_FAILED = 3
     NOTHING_RAN = 4
     UNDECIDED = 5
+    NOT_REPEATABLE = 6
     DEFECT = 70
     HUNG_UP = 129
     INTERRUPTED = 130

@@ -21,7 +21,7 @@ from mocapbench.benchmark.cli.options import Plugins, load_plugins
 from mocapbench.benchmark.errors import ExitCode, UsageError
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark.filling import FilledFile, InputFile, OutputPaths, Workers
+    from mocapbench.benchmark.filling import FilledRecording, InputFile, OutputPaths, Workers
 
 __all__ = ["app"]
 
@@ -57,9 +57,16 @@ def fill(
         Literal["open", "fill"],
         typer.Option(help="Before a marker is first seen and after it is last seen: open or fill."),
     ] = "open",
-    budget: Annotated[
-        float, typer.Option(min=1.0, help="Seconds to compare models on each file.")
-    ] = 30.0,
+    effort: Annotated[
+        Literal["low", "normal", "high"],
+        typer.Option(help="How much work the choice among models may take."),
+    ] = "normal",
+    seed: Annotated[
+        int, typer.Option(min=0, help="Of where gaps are held out, and of what models draw.")
+    ] = 0,
+    jobs: Annotated[
+        int | None, typer.Option(min=1, help="How many models run at once; all cores by default.")
+    ] = None,
     rate: Annotated[
         float | None, typer.Option(help="Frames per second, in place of what the files say.")
     ] = None,
@@ -85,34 +92,26 @@ def fill(
     """
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
-    entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap, ends == "fill")
+    entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap, ends == "fill", model)
     reading = filling.Reading(
         rate, min_likelihood, insert_missing, bench.choose_missing_rule(missing)
     )
 
     def check(input_file: InputFile) -> None:
-        _require_fillable(input_file, model, outputs[input_file.path])
+        filling.require_fillable(input_file.request, seed)
+        filling.require_writable(input_file, outputs[input_file.path])
 
     inputs, refused = filling.read_input_files(files, train or (), reading, entries, check)
     codes = [_explain_refusal(error, console) for error in refused]
     try:
-        with filling.Workers(bench.n_cores(), plugins) as workers:
+        with filling.Workers(jobs or bench.n_cores(), plugins, seed) as workers:
             for input_file in inputs:
                 paths = outputs[input_file.path]
-                codes.append(_fill_file(input_file, model, workers, budget, paths, console))
+                codes.append(_fill_file(input_file, workers, effort, paths, console))
     except KeyboardInterrupt:
         console.print("interrupted; files that were filled are kept, others were not written")
         raise
     raise typer.Exit(max(codes, default=ExitCode.OK))
-
-
-def _require_fillable(input_file: InputFile, model: str, outputs: OutputPaths) -> None:
-    """Refuse a file that the model cannot fill, or whose outputs cannot be written."""
-    if model == filling.BEST:
-        filling.require_room(input_file.problem)
-    else:
-        filling.require_candidate(model, input_file.problem)
-    filling.require_writable(input_file, outputs)
 
 
 def _explain_refusal(error: Exception, console: LiteralConsole) -> ExitCode:
@@ -125,9 +124,8 @@ def _explain_refusal(error: Exception, console: LiteralConsole) -> ExitCode:
 
 def _fill_file(
     input_file: InputFile,
-    model: str,
     workers: Workers,
-    budget: float,
+    effort: str,
     outputs: OutputPaths,
     console: LiteralConsole,
 ) -> ExitCode:
@@ -136,13 +134,15 @@ def _fill_file(
     try:
         with console.status(f"{name}: comparing models") as status:
             show = status.update if console.is_terminal else _print_now_and_then(console)
-            filled = filling.fill(input_file, model, workers, budget, _make_watch(name, show))
-        page = filling.compose_page(filled, _quote_command())
-        filling.write(filled, outputs, reports.render_filled(page))
-    except (UsageError, datasets.FormatError, OSError) as error:
+            filled = filling.fill(input_file.request, workers, effort, _make_watch(name, show))
+        page = filling.compose_page(input_file, filled, _quote_command())
+        filling.write(input_file, filled, outputs, reports.render_filled(page))
+    except UsageError as error:
+        return explain(UsageError(f"{input_file.path}: {error}"))
+    except (datasets.FormatError, OSError) as error:
         return explain(error)
-    _print_result(filled, outputs, console)
-    return ExitCode.OK
+    _print_result(input_file, filled, outputs, console)
+    return ExitCode.NOT_REPEATABLE if filled.stopped else ExitCode.OK
 
 
 def _make_watch(name: str, show: Callable[[str], object]) -> Callable[[int, int], None]:
@@ -167,14 +167,17 @@ def _print_now_and_then(console: LiteralConsole) -> Callable[[str], None]:
     return show
 
 
-def _print_result(filled: FilledFile, outputs: OutputPaths, console: LiteralConsole) -> None:
+def _print_result(
+    input_file: InputFile, filled: FilledRecording, outputs: OutputPaths, console: LiteralConsole
+) -> None:
     sentences = (
         filling.describe_fill(filled),
-        filling.describe_choice(filled),
+        *filling.describe_choice(filled),
         *filling.list_remarks(filled),
+        *input_file.remarks,
     )
-    for text in filter(None, sentences):
-        console.print(f"{filled.input_file.path.name}: {text}", soft_wrap=True, highlight=False)
+    for text in sentences:
+        console.print(f"{input_file.path.name}: {text}", soft_wrap=True, highlight=False)
     for path in outputs:
         console.print(f"  {path}", soft_wrap=True, highlight=False)
 

@@ -1,6 +1,5 @@
-from .candidates import require_candidate
-from .choosing.choice import require_room
-from .filled_file import BEST, FilledFile, fill
+from .choosing.choice import EFFORTS
+from .filled_recording import FilledRecording, fill, require_fillable
 from .input_files import InputFile, read_input_files
 from .messages import describe_choice, describe_fill, list_remarks
 from .output_files import OutputPaths, name_output_files, require_writable, write
@@ -11,8 +10,8 @@ from .requests.request import NamedEntries
 from .workers import Workers
 
 __all__ = [
-    "BEST",
-    "FilledFile",
+    "EFFORTS",
+    "FilledRecording",
     "InputFile",
     "NamedEntries",
     "NothingToFillError",
@@ -26,8 +25,7 @@ __all__ = [
     "list_remarks",
     "name_output_files",
     "read_input_files",
-    "require_candidate",
-    "require_room",
+    "require_fillable",
     "require_writable",
     "write",
 ]

@@ -2,41 +2,38 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from mocapbench.baselines.declarations.needs import describe_needs, find_met_needs
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.costs import predict_seconds
 from mocapbench.benchmark.filling.gap_problem import GapProblem, drop_unseen, pose_imputing
 from mocapbench.benchmark.registry import MODELS, build_unfitted
 
 __all__ = ["find_candidates", "require_candidate"]
 
-_ORDER = {"channel-kriging": 2, "best-of": 4}
-"""In which models start, by their names; 3 for all others that need nothing but recordings."""
+_PROMISING = (
+    "marker-kriging",
+    "rigid-body",
+    "pose-kriging",
+    "channel-kriging",
+    "lds",
+)
+"""Those that are the best in more files than others, after interpolation: they are never left out
+for models that are seldom the best."""
 
 
 def find_candidates(problem: GapProblem) -> tuple[str, ...]:
     """Return the models that can fill the gaps of a problem, in the order in which they start.
 
-    Those that interpolate take no time and come first, then those made for what there is, such as
-    markers, and ``channel-kriging``, which is the best of the others more often than any: in a long
-    recording there may be time for no more. The others come in the order of `max_frames`, no limit
-    first. ``best-of``, which tries most of the others itself, is last. All models learn from the
-    recording that they fill, so that none has to fill new recordings.
+    Those that interpolate take little work and come first, then the most promising ones, then
+    others by the work that they take, as predicted. All models learn from the recording that they
+    fill, so that none has to fill new recordings.
     """
     ability, met = _find_ability(problem), find_met_needs(pose_imputing(problem))
     models = {name: build_unfitted(name) for name in MODELS.names()}
-    able = [
-        name for name, model in models.items() if ability in model.provides and model.needs <= met
-    ]
-    return tuple(sorted(able, key=lambda name: _order_key(name, models[name])))
-
-
-def _order_key(name: str, model: Any) -> tuple[int, float]:
-    first = 0 if "interpolates" in model.provides else _ORDER.get(name, 1 if model.needs else 3)
-    return first, -(model.max_frames or np.inf)
+    able = [n for n, model in models.items() if ability in model.provides and model.needs <= met]
+    first = (*(n for n in able if "interpolates" in models[n].provides), *_PROMISING)
+    others = sorted({*able} - {*first}, key=lambda n: (predict_seconds(n, problem), n))
+    return tuple(name for name in (*first, *others) if name in able)
 
 
 def require_candidate(name: str, problem: GapProblem) -> None:

@@ -34,7 +34,6 @@ from mocapbench.datasets import FrameByChannel
 
 __all__ = ["FillAttempt", "attempt_fill", "keep_constants"]
 
-_SEED = 0
 _ENOUGH = 10
 """Frames; fewer that are equal are so by chance in files of rounded numbers, unless most are."""
 
@@ -51,23 +50,22 @@ class FillAttempt:
         Why it did.
     n_windows : int
         How many windows the recording was cut into; 0 if it was not.
-    seconds : float
-        What it took.
-    timed_out : bool
-        Whether it was stopped because it took longer than allowed.
+    stopped : bool
+        Whether it exceeded a limit of time or memory, which it may not on another machine.
     """
 
     prediction: PredictedEntries | None
     failure: str = ""
     n_windows: int = 0
-    seconds: float = 0.0
-    timed_out: bool = False
+    stopped: bool = False
 
 
 def attempt_fill(
     model: type[FrameImputer],
     problem: GapProblem,
     memory: int,
+    *,
+    seed: int = 0,
     method: str = "impute",
     calibration: Callable[[Any], Model] | None = None,
 ) -> FillAttempt:
@@ -80,6 +78,8 @@ def attempt_fill(
     problem : GapProblem
     memory : int
         Bytes of address space to which this process is limited from now on.
+    seed : int, default=0
+        Of what the model draws at random.
     method : str, default="impute"
         What the model is asked for: ``"impute_uncalibrated"`` has the same means, without the time
         that calibrating variances takes.
@@ -89,13 +89,14 @@ def attempt_fill(
     resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
     try:
         with warnings.catch_warnings(action="ignore"):
-            build = partial(build_model, model, {}, _SEED, calibration)
+            build = partial(build_model, model, {}, seed, calibration)
             unfitted: Any = build()
             windows = cut_windows(problem, unfitted.max_frames)
             parts = [(frames, part, _predict(build, part, method)) for frames, part in windows]
             prediction = keep_constants(problem, _merge_windows(problem, parts))
     except MemoryError:
-        return FillAttempt(None, f"needed more than {memory / 2**30:.1f} GiB of memory")
+        needed = f"needed more than {memory / 2**30:.1f} GiB of memory"
+        return FillAttempt(None, needed, stopped=True)
     except BaseException as error:  # a model that calls sys.exit has failed like any other
         return FillAttempt(None, reason(error) + _locate_error(error, model))
     whole = windows[0][0] == slice(0, len(problem.given.times))

@@ -9,13 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.gap_problem import (
-    GapProblem,
-    cut_blank_ends,
-    select_channels,
-)
 from mocapbench.benchmark.filling.reading import Reading
-from mocapbench.benchmark.filling.requests.channels import match_channels
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
 from mocapbench.datasets import Format, FormatError, Recording, check_alike
@@ -35,9 +29,6 @@ class InputFile:
         In which it is read and written.
     request : FillRequest
         What of it is to be filled.
-    train : tuple of Recording
-        Other files that models learn from, with the channels of the file, in its order; unlabelled
-        markers and results of a model that they lack are hidden throughout.
     remarks : tuple of str
         What is to be said of missing values in the files.
     """
@@ -45,20 +36,7 @@ class InputFile:
     path: Path
     format: Format
     request: FillRequest
-    train: tuple[Recording, ...]
     remarks: tuple[str, ...] = ()
-
-    @property
-    def problem(self) -> GapProblem:
-        """What a model is to fill.
-
-        It is without unlabelled markers and results of a model of the body of which nothing is to
-        be filled, and without frames at the ends in which nothing else is visible.
-        """
-        request = self.request
-        wanted = match_channels(request.given, None, request.results) | request.target.any(axis=0)
-        problem = GapProblem(request.given, request.target, self.train)
-        return cut_blank_ends(select_channels(problem, wanted))
 
 
 def read_input_files(
@@ -125,7 +103,7 @@ def _read_input_file(
         request = select(recording, entries, alike, results)
     except NothingToFillError as error:
         raise NothingToFillError(f"{error}{reading.suggest_likelihoods(path)}") from None
-    return InputFile(path, file, request, alike, (*remarks, *of_train))
+    return InputFile(path, file, request, (*remarks, *of_train))
 
 
 def _match_channels(other: Recording, recording: Recording, results: Sequence[str]) -> Recording:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 import numpy as np
 
 from mocapbench.basics.words import format_count, join_names
 from mocapbench.benchmark.errors import first_of
 from mocapbench.benchmark.filling.choosing.choice import Choice
+from mocapbench.benchmark.filling.choosing.kinds import Kind
 from mocapbench.benchmark.filling.choosing.ranking import Ranking
-from mocapbench.benchmark.filling.filled_file import FilledFile
-from mocapbench.benchmark.filling.gaps import count_entries, mask_ends, mask_gaps
+from mocapbench.benchmark.filling.filled_recording import FilledRecording
+from mocapbench.benchmark.filling.gaps import count_entries, find_gaps, mask_ends, mask_gaps
 from mocapbench.benchmark.filling.jumps import find_jumps
 from mocapbench.benchmark.filling.requests.names import name_hidden_markers, name_markers
 from mocapbench.benchmark.filling.requests.request import FillRequest
@@ -26,56 +27,72 @@ _FEW = 10
 """Visible frames of a channel below which nothing can be learnt from it."""
 
 
-def describe_fill(filled: FilledFile) -> str:
-    """Return which model filled how much, and how much is open at the ends."""
-    request = filled.input_file.request
-    entries = format_count(int(request.target.sum()), "entry", "entries")
-    did = f"{filled.model} filled {entries} in {format_count(len(request.gaps), 'gap')}"
+def describe_fill(filled: FilledRecording) -> str:
+    """Return which models filled how much, what is open at the ends, and what was not compared."""
+    request = filled.request
+    did = join_names([_count_filled(filled, model) for model in filled.used], len(filled.used))
     n_open = count_entries((*request.open_ends, *request.blank_ends))
-    return f"{did}, and left {n_open} open at the ends." if n_open else f"{did}."
+    left = f", and left {n_open} open at the ends" if n_open else ""
+    missing = _list_uncompared(filled.choice)
+    lacks = f" Not compared: {join_names(missing, _NAMED)}." if missing else ""
+    return f"{did}{left}.{lacks}"
 
 
-def describe_choice(filled: FilledFile) -> str:
-    """Return by how much the model leads in held-out gaps, and how good its intervals are there."""
-    if filled.uncompared:
-        return (
-            "Nothing could be compared, since no model filled a held-out gap within its part of "
-            "the budget: raise --budget to choose among models."
-        )
+def _count_filled(filled: FilledRecording, model: str) -> str:
+    """Return how much a model filled."""
+    mask = np.zeros(filled.request.target.shape, dtype=bool)
+    mask[filled.request.target] = filled.models == model
+    entries = format_count(int(mask.sum()), "entry", "entries")
+    return f"{model} filled {entries} in {format_count(len(find_gaps(mask)), 'gap')}"
+
+
+def _list_uncompared(choice: Choice | None) -> list[str]:
+    """Return the models that are able, and have filled no held-out gap."""
+    if choice is None:
+        return []
+    return [*(one.model for one in choice.contenders if not one.predictions), *choice.too_dear]
+
+
+def describe_choice(filled: FilledRecording) -> Iterator[str]:
+    """Yield for each kind of gap by how much a model leads, and how good its intervals are."""
     if filled.choice is None:
-        named = "The model was named, so no held-out gap tells how much its intervals hold."
-        return "" if filled.prediction.variance is None else named
-    return f"{_describe_lead(filled.choice)} {_describe_intervals(filled)}".strip()
+        if not np.isnan(filled.std).all():
+            yield "The model was named, so no held-out gap tells how much its intervals hold."
+        return
+    lacks = bool(_list_uncompared(filled.choice))
+    for kind, ranking in filled.choice.rankings.items():
+        lead = _describe_lead(ranking, lacks)
+        yield f"{kind}: {lead} {_describe_intervals(filled.choice, kind)}".strip()
 
 
-def _describe_intervals(filled: FilledFile) -> str:
-    """Return what the intervals of the choice hold, if it has any and has filled the file."""
-    choice = filled.choice
-    if choice is None or filled.failed or filled.model not in choice.with_intervals:
-        return ""
-    if not choice.in_intervals:
-        return (
-            "There was no time to check its intervals in held-out gaps: raise --budget to see how "
-            "much they hold."
-        )
-    inside = np.concatenate(choice.in_intervals)
-    hidden = format_count(len(inside), "hidden entry", "hidden entries")
-    gaps = format_count(len(choice.in_intervals), "held-out gap")
-    return f"Its 95 % intervals hold {100 * inside.mean():.0f} % of {hidden} in {gaps}."
+def _describe_intervals(choice: Choice, kind: Kind) -> str:
+    """Return what the intervals of the first model hold, if it has any."""
+    model = choice.rankings[kind].order[0]
+    if kind in choice.in_intervals:
+        inside = choice.in_intervals[kind]
+        hidden = format_count(len(inside), "hidden entry", "hidden entries")
+        return f"Its 95 % intervals hold {100 * inside.mean():.0f} % of {hidden}."
+    if model in choice.with_intervals:
+        return "Its intervals were not checked: --effort high has the work for it."
+    return ""
 
 
-def _describe_lead(choice: Choice) -> str:
-    ranking, gaps = choice.ranking, _count_gaps(choice.ranking)
-    if len(ranking.order) == 1:
-        return f"No other model could be compared with it, over {gaps}."
+def _describe_lead(ranking: Ranking, lacks: bool) -> str:
+    """Return by how much the first model leads; not by far where others were not compared."""
+    first, *others = ranking.order
+    gaps = _count_gaps(ranking)
+    if not others:
+        return f"{first} alone was compared to the end, over {gaps}."
     if not ranking.tested:
-        return f"It did best in {gaps}, too few to tell whether that is chance."
+        return f"{first} did best in {gaps}, too few to tell whether that is chance."
     if len(ranking.sharing) == 1:
-        return f"Its lead over {ranking.order[1]} is more than chance, over {gaps}."
+        return f"{first} leads {others[0]} by more than chance, over {gaps}."
+    if not ranking.rivals and lacks:
+        return f"{first} errs least of those compared, over {gaps}."
     if not ranking.rivals:
-        return f"It leads by far, but gaps differ too much for a test, over {gaps}."
+        return f"{first} leads by far, but gaps differ too much for a test, over {gaps}."
     rivals = join_names(ranking.rivals, len(ranking.rivals))
-    return f"Its lead over {rivals} may be chance, over {gaps}."
+    return f"The lead of {first} over {rivals} may be chance, over {gaps}."
 
 
 def _count_gaps(ranking: Ranking) -> str:
@@ -84,21 +101,26 @@ def _count_gaps(ranking: Ranking) -> str:
     return f"{gaps} at {positions}" if ranking.n_positions < ranking.n_gaps else gaps
 
 
-def list_remarks(filled: FilledFile) -> Iterator[str]:
+def list_remarks(filled: FilledRecording) -> Iterator[str]:
     """Yield what was cut, left open or shortened, what failed, and what makes entries doubtful."""
-    for model, failure in filled.failed:
-        yield f"{model} did better in held-out gaps, but did not fill the file: {failure}."
-    if filled.n_windows:
+    if filled.stopped:
         yield (
-            f"{filled.model} does not take a recording of this length: it was fitted to "
-            f"{_count_windows(filled.n_windows)}."
+            f"This cannot be repeated elsewhere: {join_names(filled.stopped, _NAMED)} exceeded a "
+            "limit of time or memory of this machine. Fill the file again when it is idle, or "
+            "name a model."
         )
-    yield from _remark_on_hidden(filled.input_file.request)
+    for model, failure in filled.failed.items():
+        yield f"{model} did better in held-out gaps, but did not fill the file: {failure}."
+    for model in filled.used:
+        if filled.n_windows[model]:
+            yield (
+                f"{model} does not take a recording of this length: it was fitted to "
+                f"{_count_windows(filled.n_windows[model])}."
+            )
+    yield from _remark_on_hidden(filled.request)
     if filled.choice:
-        yield from _remark_on_choice(filled, filled.choice)
-    if filled.prediction.variance is None:
-        none = f"{filled.model} has no predictive distribution, so there are no intervals."
-        yield f"{none} {_name_one_with_intervals(filled)}".strip()
+        yield from _remark_on_shorter_copies(filled.choice)
+    yield from _remark_on_intervals(filled)
     yield from _warn_of_doubts(filled)
 
 
@@ -107,32 +129,32 @@ def _count_windows(count: int) -> str:
     return one if count == 1 else f"{count} windows around the gaps, each on its own"
 
 
-def _remark_on_choice(filled: FilledFile, choice: Choice) -> Iterator[str]:
-    """Yield how comparable the held-out gaps are, and which models had no time."""
-    if choice.share < 1.0:
-        yield (
-            "No visible stretch is long enough for copies of all gaps: held-out gaps are down to "
-            f"{100 * choice.share:.3g} % as long as the real ones, in which errors are larger."
-        )
-    if choice.unused and not filled.failed:
-        yield (
-            f"{filled.model} had no time for {format_count(choice.unused, 'more hold-out')} that "
-            "others filled: all models are compared without them."
-        )
-    timed_out = [one.model for one in choice.left_out if one.timed_out]
-    if timed_out:
-        yield (
-            f"Time was up before {join_names(timed_out, _NAMED)} had filled the held-out gaps that "
-            "the others filled: a larger --budget may find a better model among them."
-        )
+def _remark_on_shorter_copies(choice: Choice) -> Iterator[str]:
+    """Yield of which kinds there was no room for copies as long as the gaps."""
+    for kind, share in choice.shares.items():
+        if share < 1.0:
+            yield (
+                f"{kind}: no visible stretch is long enough for copies of all gaps. Held-out gaps "
+                f"are down to {100 * share:.3g} % as long as the real ones, in which errors are "
+                "larger."
+            )
 
 
-def _name_one_with_intervals(filled: FilledFile) -> str:
+def _remark_on_intervals(filled: FilledRecording) -> Iterator[str]:
+    """Yield which models that filled entries have no intervals, and which others do."""
+    for model in filled.used:
+        kinds = {filled.all_kinds[k] for k in filled.kinds[filled.models == model].tolist()}
+        if np.isnan(filled.std[filled.models == model]).all():
+            none = f"{model} has no predictive distribution, so there are no intervals."
+            yield f"{none} {_name_one_with_intervals(filled.choice, kinds)}".strip()
+
+
+def _name_one_with_intervals(choice: Choice | None, kinds: Collection[Kind]) -> str:
     """Return the best model with intervals that held-out gaps cannot tell from the choice."""
-    if filled.choice is None or filled.failed:
+    if choice is None:
         return ""
-    choice = filled.choice
-    alike = [model for model in choice.ranking.rivals if model in choice.with_intervals]
+    rankings = [choice.rankings[kind] for kind in sorted(kinds) if kind in choice.rankings]
+    alike = [m for one in rankings for m in one.rivals if m in choice.with_intervals]
     if not alike:
         return ""
     return f"Held-out gaps do not tell it apart from {alike[0]}, which has intervals."
@@ -203,24 +225,23 @@ def _describe_unknown(names: Sequence[str]) -> str:
     )
 
 
-def _warn_of_doubts(filled: FilledFile) -> Iterator[str]:
+def _warn_of_doubts(filled: FilledRecording) -> Iterator[str]:
     """Yield that little is visible, that models extrapolate or jump, and that numbers are odd."""
-    request = filled.input_file.request
+    request = filled.request
     yield from _warn_of_few_visible(filled)
     yield from _warn_of_lost_channels(filled)
     yield from _warn_of_ends(request)
     yield from _warn_of_replaced_values(request)
     yield from _warn_of_jumps(filled)
     yield from _warn_of_long_intervals(request)
-    yield from filled.input_file.remarks
 
 
-def _warn_of_few_visible(filled: FilledFile) -> Iterator[str]:
-    given, target = filled.input_file.request.given, filled.input_file.request.target
+def _warn_of_few_visible(filled: FilledRecording) -> Iterator[str]:
+    given, target = filled.request.given, filled.request.target
     filling = target.any(axis=0)
     counts = given.visible[:, filling].sum(axis=0)
     least = int(counts.min())
-    if least < _FEW and not filled.input_file.train:
+    if least < _FEW and not filled.request.train:
         channel = np.array(given.channels)[filling][counts.argmin()]
         are = "is" if least == 1 else "are"
         yield (
@@ -230,18 +251,18 @@ def _warn_of_few_visible(filled: FilledFile) -> Iterator[str]:
         )
 
 
-def _warn_of_lost_channels(filled: FilledFile) -> Iterator[str]:
-    given, target = filled.input_file.request.given, filled.input_file.request.target
+def _warn_of_lost_channels(filled: FilledRecording) -> Iterator[str]:
+    given, target = filled.request.given, filled.request.target
     lost = np.flatnonzero(target.any(axis=0) & ~given.visible.any(axis=0))
-    train = filled.input_file.train
+    train = filled.request.train
     if not len(lost) or not train:
         return
     names = join_names([given.channels[channel] for channel in lost], _NAMED)
     caution = (
         f"Of {names}, nothing is visible in the file: no held-out gap tells how well "
-        f"{filled.model} fills that."
+        "models fill that."
     )
-    if filled.choice and len(train) > 1 and filled.model != "best-of":
+    if filled.choice and len(train) > 1 and "best-of" not in filled.used:
         caution += " --model best-of weighs models by how they fill it in the files of --train."
     yield caution
 
@@ -266,9 +287,9 @@ def _warn_of_ends(request: FillRequest) -> Iterator[str]:
     )
 
 
-def _warn_of_jumps(filled: FilledFile) -> Iterator[str]:
+def _warn_of_jumps(filled: FilledRecording) -> Iterator[str]:
     recording = filled.recording
-    jumps = find_jumps(recording, filled.input_file.request.target)
+    jumps = find_jumps(recording, filled.request.target)
     if len(jumps):
         frame, channel = (int(jumps[name].iloc[0]) for name in ("frame", "channel"))
         size, largest = (float(jumps[name].iloc[0]) for name in ("size", "largest"))

@@ -12,7 +12,7 @@ import pandas as pd
 from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import ENTRIES, require_short_names, require_writable_folder
-from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.datasets import FrameByChannel
 from mocapbench.reports import csv_text
@@ -93,7 +93,7 @@ def _hold_nearest(values: FrameByChannel) -> FrameByChannel:
     return result
 
 
-def write(filled: FilledFile, outputs: OutputPaths, page: str) -> None:
+def write(input_file: InputFile, filled: FilledRecording, outputs: OutputPaths, page: str) -> None:
     """Write all files of one filled file, or none.
 
     Raises
@@ -103,11 +103,11 @@ def write(filled: FilledFile, outputs: OutputPaths, page: str) -> None:
     OSError
         If a file cannot be written.
     """
-    input_file, (copy_path, table_path, page_path) = filled.input_file, outputs
+    copy_path, table_path, page_path = outputs
     copy_path.parent.mkdir(parents=True, exist_ok=True)
     try:
         input_file.format.write(
-            copy_path, filled.recording, like=input_file.path, replaced=input_file.request.target
+            copy_path, filled.recording, like=input_file.path, replaced=filled.request.target
         )
         write_text(table_path, csv_text(tabulate_entries(filled)))
         write_text(page_path, page)
@@ -117,15 +117,15 @@ def write(filled: FilledFile, outputs: OutputPaths, page: str) -> None:
         raise
 
 
-def tabulate_entries(filled: FilledFile) -> pd.DataFrame:
+def tabulate_entries(filled: FilledRecording) -> pd.DataFrame:
     """Return a row per filled entry, by frame.
 
-    Columns ``frame`` (0-based), ``time`` in seconds, ``channel``, ``unit``, ``mean`` and ``sd``,
-    which is empty where the model has no predictive distribution. Angles are unwrapped: they go on
-    from those beside the gap, where the file may have them 360° away.
+    Columns ``frame`` (0-based), ``time`` in seconds, ``channel``, ``unit``, ``mean``, ``sd``,
+    which is empty where the model has no predictive distribution, and ``model``. Angles are
+    unwrapped: they go on from those beside the gap, where the file may have them 360° away.
     """
-    given = filled.input_file.request.given
-    frames, channels = np.nonzero(filled.input_file.request.target)
+    given = filled.request.given
+    frames, channels = np.nonzero(filled.request.target)
     return pd.DataFrame(
         {
             "frame": frames,
@@ -133,6 +133,7 @@ def tabulate_entries(filled: FilledFile) -> pd.DataFrame:
             "channel": np.array(given.channels)[channels],
             "unit": np.array(given.units)[channels],
             "mean": filled.prediction.mean,
-            "sd": filled.deviations,
+            "sd": filled.std,
+            "model": filled.models,
         }
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import pandas as pd
@@ -10,15 +10,16 @@ import pandas as pd
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.figures.stick_figures import strip
 from mocapbench.benchmark.filling.choosing.choice import Choice
-from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.benchmark.filling.choosing.kinds import Kind
+from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gaps import Gap, find_gaps
+from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.benchmark.filling.jumps import find_jumps
 from mocapbench.benchmark.filling.messages import (
     describe_choice,
     describe_fill,
     list_remarks,
 )
-from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.datasets import Mask, Recording
 from mocapbench.reports import Axes, FilledCurve, FilledPage
@@ -33,58 +34,61 @@ _LEAST_BESIDE, _LEAST_MOTION = 15, 3
 _ROOT_PATH = frozenset({"root.tx", "root.ty", "root.tz"})
 
 
-def compose_page(filled: FilledFile, command: str) -> FilledPage:
+def compose_page(input_file: InputFile, filled: FilledRecording, command: str) -> FilledPage:
     """Return the page of a filled file, made by ``command``."""
-    gaps, recording = filled.input_file.request.gaps, filled.recording
-    jumps = find_jumps(recording, filled.input_file.request.target)
+    gaps, recording = filled.request.gaps, filled.recording
+    jumps = find_jumps(recording, filled.request.target)
     shown = list(_choose_gaps(recording, gaps, jumps))
     choice = filled.choice
-    ranking = choice.ranking if choice else None
     return FilledPage(
-        file=filled.input_file.path.name,
+        file=input_file.path.name,
         headline=describe_fill(filled),
-        verdict=describe_choice(filled),
-        remarks=tuple(list_remarks(filled)),
+        verdict=tuple(describe_choice(filled)),
+        remarks=(*list_remarks(filled), *input_file.remarks),
         curves=tuple(_cut_curves(filled, recording, shown)),
         caption=_describe_gaps(gaps, shown),
-        motion=_draw_motion(filled, recording, max(gaps, key=len)),
-        units=_list_units(filled.input_file.request, choice.rmse) if choice else (),
-        n_gaps=ranking.n_gaps if ranking else 0,
-        errors={model: ranking.means[model] for model in ranking.order} if ranking else {},
-        rmse=choice.rmse if choice else {},
-        seconds=choice.seconds if choice else {},
-        notes=_note_models(choice, filled.model) if choice else {},
+        motion=_draw_motion(input_file, filled, recording, max(gaps, key=len)),
+        rankings=_tabulate_rankings(filled, choice) if choice else {},
         left_out=tuple(_list_left_out(choice)) if choice else (),
         command=command,
     )
 
 
-def _list_units(request: FillRequest, rmse: Mapping[str, Mapping[str, float]]) -> tuple[str, ...]:
-    """Return the units of the filled channels of which models have errors, in order."""
-    channels = np.flatnonzero(request.target.any(axis=0))
-    held_out = set().union(*rmse.values())
-    units = dict.fromkeys(request.given.units[channel] for channel in channels)
-    return tuple(unit for unit in units if unit in held_out)
+def _tabulate_rankings(filled: FilledRecording, choice: Choice) -> dict[str, pd.DataFrame]:
+    """Return a table of the ranked models for each kind of gap."""
+    return {
+        f"{kind}: {format_count(ranking.n_gaps, 'held-out gap')}": pd.DataFrame(
+            {
+                "model": ranking.order,
+                f"error, {kind.unit}".rstrip(", "): [ranking.means[m] for m in ranking.order],
+                "": [_note_model(filled, choice, kind, model) for model in ranking.order],
+            }
+        )
+        for kind, ranking in choice.rankings.items()
+    }
 
 
-def _note_models(choice: Choice, chosen: str) -> dict[str, str]:
-    """Return what is to be said of each ranked model beside its errors."""
-    ranking = choice.ranking
-    notes = {}
-    for model in ranking.order:
-        is_chosen = "chosen" if model == chosen else ""
-        alike = f"lead of {ranking.order[0]} may be chance" if model in ranking.rivals else ""
-        windows = "fitted to windows" if choice.n_windows[model] else ""
-        notes[model] = ", ".join(filter(None, (is_chosen, alike, windows)))
-    return notes
+def _note_model(filled: FilledRecording, choice: Choice, kind: Kind, model: str) -> str:
+    """Return what is to be said of a ranked model beside its error."""
+    ranking = choice.rankings[kind]
+    of_kind = filled.kinds == filled.all_kinds.index(kind)
+    n_windows = {one.model: one.n_windows for one in choice.contenders}
+    notes = (
+        "chosen" if model in filled.models[of_kind] else "",
+        f"lead of {ranking.order[0]} may be chance" if model in ranking.rivals else "",
+        "fitted to windows" if n_windows[model] else "",
+    )
+    return ", ".join(filter(None, notes))
 
 
 def _list_left_out(choice: Choice) -> Iterator[tuple[str, str]]:
     """Yield the models without a rank, each with the reason."""
-    for one in choice.left_out:
-        n_filled = len(one.predictions)
-        filled = f"{format_count(n_filled, 'hold-out')} filled; " if n_filled else ""
-        yield one.model, f"{filled}{one.failure}"
+    ranked = {model for ranking in choice.rankings.values() for model in ranking.order}
+    for one in choice.contenders:
+        if one.model not in ranked:
+            yield one.model, one.ending
+    for model in choice.too_dear:
+        yield model, "would take more work than --effort allows, to fill the file"
 
 
 def _choose_gaps(
@@ -116,11 +120,11 @@ def _find_channels(jumps: pd.DataFrame, gap: Gap) -> list[int]:
 
 
 def _cut_curves(
-    filled: FilledFile, recording: Recording, shown: Sequence[tuple[Gap, int]]
+    filled: FilledRecording, recording: Recording, shown: Sequence[tuple[Gap, int]]
 ) -> Iterator[FilledCurve]:
-    request = filled.input_file.request
+    request = filled.request
     deviations = np.full(request.target.shape, np.nan)
-    deviations[request.target] = filled.deviations
+    deviations[request.target] = filled.std
     for gap, channel in shown:
         frames = _surround(gap, len(recording.times), _LEAST_BESIDE)
         yield FilledCurve(
@@ -162,15 +166,17 @@ def _describe_gaps(gaps: Sequence[Gap], shown: Sequence[tuple[Gap, int]]) -> str
     return f"{which}{channels}. The table beside this page has every filled entry."
 
 
-def _draw_motion(filled: FilledFile, recording: Recording, gap: Gap) -> Axes | None:
+def _draw_motion(
+    input_file: InputFile, filled: FilledRecording, recording: Recording, gap: Gap
+) -> Axes | None:
     """Return stick figures from before a gap until after it, where the file has a skeleton."""
-    skeleton = filled.input_file.format.skeleton(filled.input_file.path)
+    skeleton = input_file.format.skeleton(input_file.path)
     # Few frames beside it, so that figures are of filled frames, too.
     frames = _surround(gap, len(recording.times), _LEAST_MOTION)
     part = recording.frames(np.arange(frames.start, frames.stop))
     whole = len(part.times) > 1 and part.visible.all() and set(part.channels) >= _ROOT_PATH
     if skeleton is None or not whole:
         return None
-    touched = filled.input_file.request.target[frames].any(axis=1)
+    touched = filled.request.target[frames].any(axis=1)
     groups = np.where(touched, FILLED_FRAMES, GIVEN_FRAMES).tolist()
     return strip(part, JointAngles(skeleton), groups)

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import itertools
 import pickle
-import time
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from contextlib import ExitStack
-from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -31,6 +29,12 @@ from mocapbench.benchmark.runs.machine import memory_share
 
 __all__ = ["Workers"]
 
+_TIMES, _LEAST_LIMIT = 20.0, 120.0
+"""How many times as long as predicted an attempt may take, and how many seconds at least.
+
+So a busy machine takes longer, and computes the same.
+"""
+
 
 class Workers:
     """Processes on this machine that fill gaps; they end with the context.
@@ -41,18 +45,20 @@ class Workers:
         How many attempts run at once.
     plugins : tuple of Path
         The user's own files of models.
+    seed : int
+        Of what models draw at random.
     """
 
-    def __init__(self, count: int, plugins: tuple[Path, ...] = ()) -> None:
-        self.count = count
-        self._plugins = plugins
+    def __init__(self, count: int, plugins: tuple[Path, ...] = (), seed: int = 0) -> None:
+        self._count, self.seed = count, seed
         self._numbers = itertools.count()
-        self._memory = int(memory_share(count) * 2**30)
+        memory = int(memory_share(count) * 2**30)
+        self._attempt = partial(_attempt_in_child, memory=memory, seed=seed, plugins=plugins)
 
     def __enter__(self) -> Self:
         with ExitStack() as resources:
             self._folder = resources.enter_context(scratch_folder())
-            self._pool = WorkerPool(self.count)
+            self._pool = WorkerPool(self._count)
             self._resources = resources.pop_all()
         return self
 
@@ -74,47 +80,65 @@ class Workers:
     def submit(
         self, model: str, problem: Path, seconds: float, method: str = "impute"
     ) -> Future[FillAttempt]:
-        """Have a model solve a problem as soon as a worker is free, within so many seconds.
+        """Have a model solve a problem as soon as a worker is free.
 
-        See `attempt_fill` for the method.
+        It is stopped if it takes many times the predicted seconds. See `attempt_fill` for the
+        method.
         """
-        limits = seconds, self._memory
-        return self._pool.submit(_attempt_in_child, model, problem, method, limits, self._plugins)
+        limit = max(_TIMES * seconds, _LEAST_LIMIT)
+        return self._pool.submit(self._attempt, model, problem, method, limit)
 
-    def wait_for_any(
-        self, futures: Collection[Future[FillAttempt]]
-    ) -> Collection[Future[FillAttempt]]:
-        """Wait until one or more of ``futures`` have ended, and return them."""
-        return self._pool.wait_for_any(futures)
+    def collect(
+        self,
+        futures: Collection[Future[FillAttempt]],
+        watch: Callable[[int, int], object] = lambda *_: None,
+    ) -> dict[Future[FillAttempt], FillAttempt]:
+        """Return how attempts ended, whose workers may have died.
 
-    def collect(self, future: Future[FillAttempt]) -> FillAttempt:
-        """Return how an attempt ended, whose worker may have died."""
-        try:
-            return future.result()
-        except ProcessExpired as error:
-            return FillAttempt(None, f"its worker died with exit code {error.exitcode}")
+        Parameters
+        ----------
+        futures : collection of Future
+        watch : callable, optional
+            Called with the number of attempts that have ended and that of all.
+        """
+        attempts: dict[Future[FillAttempt], FillAttempt] = {}
+        while waiting := {*futures} - attempts.keys():
+            for future in self._pool.wait_for_any(waiting):
+                attempts[future] = _find_ending(future)
+            watch(len(attempts), len(futures))
+        return attempts
+
+
+def _find_ending(future: Future[FillAttempt]) -> FillAttempt:
+    try:
+        return future.result()
+    except ProcessExpired as error:
+        return FillAttempt(None, f"its worker died with exit code {error.exitcode}")
 
 
 def _attempt_in_child(
-    name: str, problem: Path, method: str, limits: tuple[float, int], plugins: tuple[Path, ...]
+    name: str,
+    problem: Path,
+    method: str,
+    seconds: float,
+    *,
+    memory: int,
+    seed: int,
+    plugins: tuple[Path, ...],
 ) -> FillAttempt:
     """Return one attempt, made in a child of this process."""
-    started, (seconds, memory) = time.perf_counter(), limits
     load_plugins_once(plugins)
     model, calibration, given = MODELS.get(name), find_calibration(name), _read_problem(problem)
+    attempt = partial(attempt_fill, seed=seed, method=method, calibration=calibration)
     try:
-        made: FillAttempt = call_in_child(
-            attempt_fill, model, given, memory, method, calibration, timeout=seconds
-        )
+        made: FillAttempt = call_in_child(attempt, model, given, memory, timeout=seconds)
     except TimeoutError:
-        made = FillAttempt(
-            None, f"was stopped after {round(seconds, 2):g} s, when its time was up", timed_out=True
-        )
+        made = FillAttempt(None, f"was stopped after {round(seconds, 2):g} s", stopped=True)
     except ProcessDiedError as error:
         made = FillAttempt(None, f"its process died with exit code {error.exit_code}")
     finally:
         kill_children()  # what the model started and left running
-    return replace(made, seconds=time.perf_counter() - started)
+    return made
 
 
 @lru_cache(maxsize=2)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import pandas as pd
+
 from mocapbench.reports.bundle.pictures import Axes, Illustration
 from mocapbench.reports.figures.pictures.curves import draw
 from mocapbench.reports.filling.curves import (
@@ -29,8 +31,8 @@ class FilledPage:
         Name of the file.
     headline : str
         Which model filled how much, and why this one.
-    verdict : str
-        Whether its lead is more than chance; empty if no gap was held out.
+    verdict : tuple of str
+        For each kind of gap, whether the lead of a model is more than chance.
     remarks : tuple of str
         What was cut into windows, left open or shortened, and what failed.
     curves : tuple of FilledCurve
@@ -38,19 +40,9 @@ class FilledPage:
         Which gaps the curves show.
     motion : Axes or None
         Stick figures.
-    units : tuple of str
-        The units of the errors.
-    n_gaps : int
-        The number of held-out gaps.
-    errors : mapping of str to float
-        Of each model in the ranking, the best first: the weighted mean error over the held-out
-        gaps, relative to that of holding the last visible value.
-    rmse : mapping of str to mapping of str to float
-        Of each of these models, the root mean squared error by unit.
-    seconds : mapping of str to float
-        What a hold-out took each of them.
-    notes : mapping of str to str
-        Such as that it shares the first rank.
+    rankings : mapping of str to DataFrame
+        By what is to be said of a kind of gap, a row a model, the best first: its name, its error
+        in the unit that the column names, and a note.
     left_out : tuple of (str, str)
         Models without a rank, each with the reason.
     command : str
@@ -59,17 +51,12 @@ class FilledPage:
 
     file: str
     headline: str
-    verdict: str
+    verdict: tuple[str, ...]
     remarks: tuple[str, ...]
     curves: tuple[FilledCurve, ...]
     caption: str
     motion: Axes | None
-    units: tuple[str, ...]
-    n_gaps: int
-    errors: Mapping[str, float]
-    rmse: Mapping[str, Mapping[str, float]]
-    seconds: Mapping[str, float]
-    notes: Mapping[str, str]
+    rankings: Mapping[str, pd.DataFrame]
     left_out: tuple[tuple[str, str], ...]
     command: str
 
@@ -81,7 +68,7 @@ def render_filled(page: FilledPage) -> str:
         curves=[draw_curve(curve) for curve in page.curves],
         legend=draw_legend(),
         motion=draw(_illustrate_motion(page.motion), MOTION_STYLES) if page.motion else None,
-        rows=_format_ranking(page),
+        rankings={kind: _format_ranking(one) for kind, one in page.rankings.items()},
         css=styles(),
     )
 
@@ -90,19 +77,8 @@ def _illustrate_motion(motion: Axes) -> Illustration:
     return Illustration("filled", "Motion", "", (motion,))
 
 
-def _format_ranking(page: FilledPage) -> list[tuple[str, ...]]:
-    """Return the cells of the ranking, its numbers with equal decimals in a column."""
-    n_decimals = decimals(page.errors.values())
-    in_unit = {
-        unit: decimals(page.rmse[model][unit] for model in page.errors) for unit in page.units
-    }
-    return [
-        (
-            model,
-            number(error, n_decimals),
-            *(number(page.rmse[model][unit], in_unit[unit]) for unit in page.units),
-            number(page.seconds[model], 1),
-            page.notes[model],
-        )
-        for model, error in page.errors.items()
-    ]
+def _format_ranking(ranking: pd.DataFrame) -> pd.DataFrame:
+    """Return a ranking as text, its errors with equal decimals."""
+    error = ranking.columns[1]
+    n_decimals = decimals(ranking[error])
+    return ranking.assign(**{error: [number(each, n_decimals) for each in ranking[error]]})

@@ -1,40 +1,40 @@
-"""The choice of a model by its errors in held-out gaps."""
+"""The choice of a model for each kind of gap, by errors in held-out gaps."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.special import ndtri
 
+from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.candidates import find_candidates
+from mocapbench.benchmark.filling.choosing.halving import Contender, rank_by_kind, run_rungs
 from mocapbench.benchmark.filling.choosing.hold_outs import HoldOut, has_room, make_hold_outs
-from mocapbench.benchmark.filling.choosing.ranking import Ranking, number_positions, rank
-from mocapbench.benchmark.filling.choosing.schedule import Contender, run_rounds
-from mocapbench.benchmark.filling.choosing.scores import (
-    score_gaps,
-    score_holding,
-    score_units,
-    weigh_gaps,
-)
+from mocapbench.benchmark.filling.choosing.kinds import Kind
+from mocapbench.benchmark.filling.choosing.ranking import Ranking
+from mocapbench.benchmark.filling.choosing.scores import list_gaps
+from mocapbench.benchmark.filling.costs import predict_calibrated_seconds
+from mocapbench.benchmark.filling.fill_attempt import FillAttempt
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.datasets import Mask
 
-__all__ = ["Choice", "NoneInTimeError", "check_intervals", "choose", "compare", "require_room"]
+__all__ = ["EFFORTS", "Choice", "choose", "require_room"]
 
-_SEED = 0
-_FOR_INTERVALS = 0.5
-"""Of the budget, what the check of intervals may take besides."""
+EFFORTS: Mapping[str, tuple[float, float]] = {
+    "low": (3.0, 0.3),
+    "normal": (12.0, 1.0),
+    "high": (120.0, 10.0),
+}
+"""How much work, predicted in seconds of a core, a choice may take: so much, and so much more for
+each 100,000 entries of the recording."""
+_PER_ENTRIES = 100_000
 _WITHIN_95 = float(ndtri(0.975))
 _CHECKED = 3
 """Hold-outs filled again with intervals, the first ones: calibration takes several times longer."""
-
-
-class NoneInTimeError(UsageError):
-    """No model filled a hold-out within its part of the budget."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,79 +43,108 @@ class Choice:
 
     Parameters
     ----------
-    ranking : Ranking
-        Of the models that filled the same hold-outs.
-    left_out : tuple of Contender
-        The others.
-    share : float
-        The length of the shortest held-out gap relative to the real one.
-    rmse : mapping of str to mapping of str to float
-        Of each ranked model, by unit: the root mean squared error over all entries, in that unit.
+    rankings : mapping of Kind to Ranking
+        Of the models that filled all hold-outs, for each kind of gap of which there are copies.
+    hold_outs : tuple of HoldOut
+        Those that the ranked models filled.
+    contenders : tuple of Contender
+        All models that were compared.
+    too_dear : tuple of str
+        Models that were left out beforehand, since they would take too much work.
     with_intervals : frozenset of str
         The ranked models that have a predictive distribution.
-    seconds : mapping of str to float
-        What a hold-out took each ranked model on average.
-    n_windows : mapping of str to int
-        Into how many windows each ranked model had a hold-out cut; 0 if into none.
-    unused : int
-        How many more hold-outs others filled than the first model had time for.
-    in_intervals : tuple of ndarray of bool
-        Of hidden entries of held-out gaps, which are in the 95 % intervals of the first model: an
-        array a gap. There is none if the model has no intervals, or no time was left.
+    in_intervals : mapping of Kind to ndarray of bool of shape (n,)
+        Of hidden entries of held-out gaps, which are in the 95 % intervals of the first model.
+        A kind whose first model has none is absent.
     """
 
-    ranking: Ranking
-    left_out: tuple[Contender, ...]
-    share: float
-    rmse: Mapping[str, Mapping[str, float]]
-    with_intervals: frozenset[str]
-    seconds: Mapping[str, float]
-    n_windows: Mapping[str, int]
-    unused: int = 0
-    in_intervals: tuple[Mask, ...] = ()
+    rankings: Mapping[Kind, Ranking]
+    hold_outs: tuple[HoldOut, ...]
+    contenders: tuple[Contender, ...]
+    too_dear: tuple[str, ...] = ()
+    with_intervals: frozenset[str] = frozenset()
+    in_intervals: Mapping[Kind, Mask] = field(default_factory=dict)
+
+    def find_ranking(self, kind: Kind) -> Ranking:
+        """Return the ranking for a kind, or for the one most like it of which there are copies."""
+        return self.rankings[min(self.rankings, key=lambda other: _measure_unlikeness(other, kind))]
+
+    @property
+    def stopped(self) -> tuple[str, ...]:
+        """The models that exceeded a limit: on another machine, the choice may differ."""
+        return tuple(one.model for one in self.contenders if one.stopped)
+
+    @property
+    def shares(self) -> Mapping[Kind, float]:
+        """Of each kind, the length of the shortest held-out gap relative to the real one."""
+        shares: dict[Kind, float] = {}
+        for gap in list_gaps(self.hold_outs):
+            share = len(gap.copy) / len(gap.original)
+            shares[gap.kind] = min(share, shares.get(gap.kind, 1.0))
+        return shares
+
+
+def _measure_unlikeness(other: Kind, kind: Kind) -> tuple[bool, bool, bool, Kind]:
+    return other.unit != kind.unit, other.extent != kind.extent, other.length != kind.length, other
 
 
 def choose(
-    problem: GapProblem, workers: Workers, budget: float, watch: Callable[[int, int], object]
+    problem: GapProblem, workers: Workers, effort: str, watch: Callable[[int, int], object]
 ) -> Choice:
-    """Return which model fills gaps like those of a problem best.
+    """Return which model fills each kind of gap of a problem best.
 
     Parameters
     ----------
     problem : GapProblem
     workers : Workers
-    budget : float
-        Seconds to compare models; half as many more may go to the intervals of the best.
+    effort : str
+        One of `EFFORTS`.
     watch : callable
-        Called with the number of hold-outs that models have filled and the total.
+        Called with the number of hold-outs that models have filled and the total so far.
 
     Raises
     ------
-    NoneInTimeError
-        If no model fills a hold-out within the budget.
     UsageError
-        If there is no room for a hold-out.
+        If there is no room for a hold-out, or no model fills one.
     """
-    models = find_candidates(problem)
-    hold_outs = make_hold_outs(problem, np.random.default_rng(_SEED))
+    hold_outs = make_hold_outs(problem, np.random.default_rng(workers.seed))
     if not hold_outs:
         raise _explain_no_room(problem)
-    contenders = run_rounds(models, hold_outs, workers, budget, watch)
-    if not any(contender.predictions for contender in contenders):
-        raise NoneInTimeError(
-            f"{problem.given.name}: expected a model that fills a held-out gap in its part of the "
-            f"budget of {budget:g} s, got none ({contenders[0].model}: {contenders[0].failure}); "
-            "raise --budget"
+    work = _allow_work(problem, effort)
+    models = find_candidates(problem)
+    able = [m for m in models if predict_calibrated_seconds(m, problem) <= work]
+    contenders = run_rungs(able, hold_outs, workers, work, watch)
+    n_filled = max(len(one.predictions) for one in contenders)
+    if not n_filled:
+        raise UsageError(
+            f"expected a model that fills a held-out gap, got none ({contenders[0].model}: "
+            f"{contenders[0].ending}); name a model with --model"
         )
-    choice = compare(hold_outs, contenders)
-    best = choice.ranking.order[0]
-    if best not in choice.with_intervals:
-        return choice
-    seconds = _FOR_INTERVALS * budget
-    return replace(choice, in_intervals=check_intervals(best, hold_outs, workers, seconds))
+    filled = tuple(hold_outs[:n_filled])
+    choice = Choice(
+        rank_by_kind(contenders, filled),
+        filled,
+        tuple(contenders),
+        tuple(model for model in models if model not in able),
+        _find_those_with_intervals(contenders, n_filled),
+    )
+    return replace(choice, in_intervals=check_intervals(choice, workers, work))
 
 
-def require_room(problem: GapProblem) -> None:
+def _allow_work(problem: GapProblem, effort: str) -> float:
+    """Return how many seconds of a core the fits of a choice may take, as predicted."""
+    once, per_entries = EFFORTS[effort]
+    return once + per_entries * problem.target.size / _PER_ENTRIES
+
+
+def _find_those_with_intervals(contenders: Sequence[Contender], n_filled: int) -> frozenset[str]:
+    ranked = [one for one in contenders if len(one.predictions) == n_filled]
+    return frozenset(
+        one.model for one in ranked if all(each.variance is not None for each in one.predictions)
+    )
+
+
+def require_room(problem: GapProblem, seed: int) -> None:
     """Refuse a recording in which no copy of a gap can be held out.
 
     Raises
@@ -123,7 +152,7 @@ def require_room(problem: GapProblem) -> None:
     UsageError
         The message says what to do.
     """
-    if not has_room(problem, np.random.default_rng(_SEED)):
+    if not has_room(problem, np.random.default_rng(seed)):
         raise _explain_no_room(problem)
 
 
@@ -134,106 +163,36 @@ def _explain_no_room(problem: GapProblem) -> UsageError:
     if len(problem.train) > 1 and "best-of" in models:
         advice += "; best-of tries others on the files of --train"
     return UsageError(
-        f"{problem.given.name}: expected a visible stretch to try models on, got none that is "
-        f"free of gaps; {advice}"
+        f"expected a visible stretch to try models on, got none that is free of gaps; {advice}"
     )
 
 
-def compare(hold_outs: Sequence[HoldOut], contenders: Sequence[Contender]) -> Choice:
-    """Return the ranking by as many hold-outs as most of the predictions allow.
+def check_intervals(choice: Choice, workers: Workers, work: float) -> dict[Kind, Mask]:
+    """Return which hidden entries are in the intervals of the first model of each kind.
 
-    A model that filled fewer of them is chosen by these, if it leads there by more than chance.
-
-    Parameters
-    ----------
-    hold_outs : sequence of HoldOut
-    contenders : sequence of Contender
-        At least one has a prediction.
+    Of a model of which that would take more work, nothing is checked.
     """
-    common = _count_common(contenders)
-    most = _compare_over(hold_outs[:common], contenders)
-    counts = {len(contender.predictions) for contender in contenders}
-    n_most = max(counts)
-    for count in sorted((n for n in counts if 0 < n < common), reverse=True):
-        if _copy_the_same_gaps(hold_outs[:count], hold_outs[:n_most]):
-            fewer = _compare_over(hold_outs[:count], contenders)
-            by_hold_out = _rank_by_hold_out(hold_outs[:count], fewer.ranking)
-            if _leads(fewer.ranking, most) and _leads(by_hold_out, most):
-                return replace(fewer, unused=n_most - count)
-    return most
+    firsts = {kind: one.order[0] for kind, one in choice.rankings.items()}
+    checked = choice.hold_outs[:_CHECKED]
+    futures = {}
+    for model in sorted({*firsts.values()} & choice.with_intervals):
+        seconds = [predict_calibrated_seconds(model, one.problem) for one in checked]
+        if sum(seconds) <= work:
+            for one, each in zip(checked, seconds, strict=True):
+                futures[workers.submit(model, workers.keep(one.problem), each)] = model, one
+    inside: dict[Kind, list[Mask]] = {}
+    attempts = workers.collect(futures.keys())
+    for future, (model, one) in futures.items():
+        for kind, entries in _list_entries_inside(one, attempts[future]):
+            if firsts[kind] == model:
+                inside.setdefault(kind, []).append(entries)
+    return {kind: np.concatenate(each) for kind, each in inside.items()}
 
 
-def _count_common(contenders: Sequence[Contender]) -> int:
-    """Return by how many of the first hold-outs to compare: those with most predictions in all."""
-    counts = sorted((len(contender.predictions) for contender in contenders), reverse=True)
-    totals = [count * n_models for n_models, count in enumerate(counts, start=1)]
-    return counts[int(np.argmax(totals))]
-
-
-def _copy_the_same_gaps(fewer: Sequence[HoldOut], more: Sequence[HoldOut]) -> bool:
-    """Return whether fewer hold-outs have copies of all gaps of which more have some."""
-    of_fewer, of_more = ({gap for one in each for gap in one.originals} for each in (fewer, more))
-    return of_fewer == of_more
-
-
-def _leads(ranking: Ranking, most: Choice) -> bool:
-    """Return whether a model that most leaves out is better than all others by more than chance."""
-    return ranking.tested and not {*most.ranking.order} & {*ranking.sharing}
-
-
-def _rank_by_hold_out(hold_outs: Sequence[HoldOut], ranking: Ranking) -> Ranking:
-    """Return the ranking with hold-outs as units: a fit makes all errors of one large or small."""
-    number = np.repeat(np.arange(len(hold_outs)), [len(one.copies) for one in hold_outs])
-    return rank(ranking.errors, weigh_gaps(hold_outs), number)
-
-
-def _compare_over(hold_outs: Sequence[HoldOut], contenders: Sequence[Contender]) -> Choice:
-    """Return the choice among the models that filled all of these hold-outs."""
-    scales = score_holding(hold_outs)
-    ranked = [one for one in contenders if len(one.predictions) >= len(hold_outs)]
-    predicted = {one.model: one.predictions[: len(hold_outs)] for one in ranked}
-    errors = {model: score_gaps(hold_outs, each, scales) for model, each in predicted.items()}
-    return Choice(
-        ranking=rank(errors, weigh_gaps(hold_outs), number_positions(hold_outs)),
-        left_out=tuple(one for one in contenders if one not in ranked),
-        share=min(hold_out.share for hold_out in hold_outs),
-        rmse={model: score_units(hold_outs, each) for model, each in predicted.items()},
-        with_intervals=frozenset(
-            model
-            for model, each in predicted.items()
-            if all(prediction.variance is not None for prediction in each)
-        ),
-        seconds={one.model: one.seconds / len(one.predictions) for one in ranked},
-        n_windows={one.model: one.n_windows for one in ranked},
-    )
-
-
-def check_intervals(
-    model: str, hold_outs: Sequence[HoldOut], workers: Workers, seconds: float
-) -> tuple[Mask, ...]:
-    """Return which hidden entries are in a model's 95 % intervals, an array a held-out gap.
-
-    There is none if no hold-out was filled in time.
-
-    Parameters
-    ----------
-    model : str
-    hold_outs : sequence of HoldOut
-    workers : Workers
-    seconds : float
-        For all that is done here.
-    """
-    checked = hold_outs[:_CHECKED]
-    share = seconds / np.ceil(len(checked) / workers.count)
-    running = {
-        workers.submit(model, workers.keep(one.problem), share, "impute"): one for one in checked
-    }
-    within: list[Mask] = []
-    while running:
-        for future in workers.wait_for_any(running.keys()):
-            hold_out, prediction = running.pop(future), workers.collect(future).prediction
-            if prediction is not None and prediction.variance is not None:
-                errors = np.abs(prediction.mean - hold_out.truth)
-                inside = errors <= _WITHIN_95 * np.sqrt(prediction.variance)
-                within += [inside[entries] for entries in hold_out.entries]
-    return tuple(within)
+def _list_entries_inside(hold_out: HoldOut, attempt: FillAttempt) -> Iterator[tuple[Kind, Mask]]:
+    """Yield which entries of each held-out gap are in the 95 % intervals, if there are any."""
+    prediction = attempt.prediction
+    if prediction is not None and prediction.variance is not None:
+        errors: Array = np.abs(prediction.mean - hold_out.truth)
+        inside = errors <= _WITHIN_95 * np.sqrt(prediction.variance)
+        yield from ((gap.kind, inside[gap.entries]) for gap in hold_out.gaps)

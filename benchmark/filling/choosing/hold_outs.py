@@ -8,24 +8,40 @@ or ends with the copy.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from mocapbench.basics.arrays import Array, Index
+from mocapbench.benchmark.filling.choosing.kinds import Kind, tell_kinds
 from mocapbench.benchmark.filling.choosing.layout import EpisodeLayout, EpisodeQueue
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.filling.gaps import Episode, Gap, find_gaps, group_gaps
-from mocapbench.datasets import Mask
 
-__all__ = ["HoldOut", "has_room", "make_hold_outs"]
+__all__ = ["HeldOutGap", "HoldOut", "has_room", "make_hold_outs"]
 
-MOST_HOLD_OUTS, ENOUGH_GAPS = 24, 48
-"""Hold-outs are made until there are so many of them, or so many held-out gaps."""
+MOST_HOLD_OUTS, ENOUGH_GAPS = 24, 24
+"""Hold-outs are made until there are so many, or so many held-out gaps of each kind."""
 FEWEST_HOLD_OUTS, MOST_ENTRIES = 3, 40_000_000
 """Of long recordings there are fewer: no more than have so many entries (320 MB) in all."""
 _REPEATS = 10
 """Hold-outs that may repeat others before no more are made."""
+
+
+class HeldOutGap(NamedTuple):
+    """A copy of a gap in the channels of one unit."""
+
+    kind: Kind
+    """That of the original."""
+    copy: Gap
+    """Which frames and channels are hidden, by their numbers in the whole recording."""
+    original: Gap
+    """The real gap."""
+    entries: Index
+    """Which of the wanted entries (M,) of the hold-out it has; they are scored together."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,22 +54,13 @@ class HoldOut:
         The recording, or a part of it that begins or ends with a gap, with more hidden.
     truth : ndarray of shape (M,)
         The values of the wanted entries, in the order of ``np.nonzero(problem.target)``.
-    entries : tuple of ndarray of int
-        Which of the wanted entries (M,) each held-out gap has; they are scored together.
-    copies : tuple of Episode
-        The held-out gaps, at their frames in the whole recording.
-    originals : tuple of Episode
-        The real gaps of which these are copies.
-    share : float
-        The length of the shortest held-out gap relative to the real one; 1 if none was shortened.
+    gaps : tuple of HeldOutGap
+        Together they have all wanted entries.
     """
 
     problem: GapProblem
     truth: Array
-    entries: tuple[Index, ...]
-    copies: tuple[Episode, ...]
-    originals: tuple[Episode, ...]
-    share: float
+    gaps: tuple[HeldOutGap, ...]
 
 
 def make_hold_outs(problem: GapProblem, rng: np.random.Generator) -> list[HoldOut]:
@@ -63,12 +70,9 @@ def make_hold_outs(problem: GapProblem, rng: np.random.Generator) -> list[HoldOu
     """
     hold_outs: list[HoldOut] = []
     made: set[tuple[float, bytes]] = set()
-    repeats = 0
-    used = np.zeros(len(problem.given.times), dtype=bool)
-    queue = EpisodeQueue(_group_interior_gaps(problem), rng)
-    most = min(MOST_HOLD_OUTS, max(FEWEST_HOLD_OUTS, MOST_ENTRIES // problem.target.size))
-    while len(hold_outs) < most and sum(len(one.copies) for one in hold_outs) < ENOUGH_GAPS:
-        hold_out = _make_hold_out(problem, used, queue, rng)
+    repeats, maker = 0, _Maker(problem, rng)
+    while len(hold_outs) < maker.most and not _are_enough(hold_outs, maker.n_kinds):
+        hold_out = maker.make()
         if hold_out is None or repeats > _REPEATS:
             break
         # What tells hold-outs apart: where one begins, and what it hides.
@@ -83,23 +87,73 @@ def make_hold_outs(problem: GapProblem, rng: np.random.Generator) -> list[HoldOu
 
 def has_room(problem: GapProblem, rng: np.random.Generator) -> bool:
     """Return whether there is room for a hold-out of the gaps of a problem."""
-    used = np.zeros(len(problem.given.times), dtype=bool)
-    queue = EpisodeQueue(_group_interior_gaps(problem), rng)
-    return _make_hold_out(problem, used, queue, rng) is not None
+    return _Maker(problem, rng).make() is not None
 
 
-def _make_hold_out(
-    problem: GapProblem, used: Mask, queue: EpisodeQueue, rng: np.random.Generator
-) -> HoldOut | None:
-    """Return one hold-out, and mark the frames that it hides as used."""
-    layout = EpisodeLayout(~problem.given.visible, used, rng)
-    if queue.n_per_hold_out:
-        layout.place_between(queue)
-    else:
-        first, last = _find_gaps_at_the_ends(problem)
-        layout.begin(first)
-        layout.end(last)
-    return _hide_copies(problem, layout) if layout.copies else None
+def _are_enough(hold_outs: Sequence[HoldOut], n_kinds: int) -> bool:
+    """Return whether there are enough held-out gaps of each kind."""
+    counts = Counter(gap.kind for one in hold_outs for gap in one.gaps)
+    return len(counts) == n_kinds and min(counts.values()) >= ENOUGH_GAPS
+
+
+class _Maker:
+    """Makes hold-outs of a problem, which avoid each other's frames as far as there are others.
+
+    Parameters
+    ----------
+    problem : GapProblem
+    rng : numpy.random.Generator
+    """
+
+    def __init__(self, problem: GapProblem, rng: np.random.Generator) -> None:
+        self._problem, self._rng = problem, rng
+        self._kinds = tell_kinds(problem)
+        self._used = np.zeros(len(problem.given.times), dtype=bool)
+        self._queue = EpisodeQueue(self._group_by_kind(), rng)
+        self.n_kinds = len({kind for kinds in self._kinds.values() for kind in kinds})
+        self.most = min(MOST_HOLD_OUTS, max(FEWEST_HOLD_OUTS, MOST_ENTRIES // problem.target.size))
+
+    def make(self) -> HoldOut | None:
+        """Return one more hold-out; None if there is no room."""
+        layout = EpisodeLayout(~self._problem.given.visible, self._used, self._rng)
+        if self._queue:
+            layout.place_between(self._queue)
+        else:
+            first, last = _find_gaps_at_the_ends(self._problem)
+            layout.begin(first)
+            layout.end(last)
+        return self._hide_copies(layout) if layout.copies else None
+
+    def _group_by_kind(self) -> list[list[Episode]]:
+        """Return the episodes of the gaps that are not at an end, by the kind of the longest."""
+        ends = {gap for gaps in _find_gaps_at_the_ends(self._problem) for gap in gaps}
+        groups: dict[Kind, list[Episode]] = {}
+        for episode in group_gaps([g for g in find_gaps(self._problem.target) if g not in ends]):
+            kind = min(self._kinds[max(episode.gaps, key=len)])
+            groups.setdefault(kind, []).append(episode)
+        return [groups[kind] for kind in sorted(groups)]
+
+    def _hide_copies(self, layout: EpisodeLayout) -> HoldOut:
+        problem, frames = self._problem, np.arange(layout.start, layout.stop)
+        recording = problem.given.frames(frames)
+        owners = np.full(problem.target.shape, -1, dtype=np.int32)
+        gaps = [*self._list_held_out(layout)]
+        for number, (_, copy, _) in enumerate(gaps):
+            owners[copy.start : copy.stop, list(copy.channels)] = number
+        owners = owners[frames]
+        target = owners >= 0
+        held_out = (
+            HeldOutGap(*gap, np.flatnonzero(owners[target] == number))
+            for number, gap in enumerate(gaps)
+        )
+        hidden = GapProblem(recording.hide(target), target, problem.train)
+        return HoldOut(hidden, recording.values[target], tuple(held_out))
+
+    def _list_held_out(self, layout: EpisodeLayout) -> Iterator[tuple[Kind, Gap, Gap]]:
+        """Yield the kinds of the copied gaps, each with the copy in its channels and the gap."""
+        for copy, original in layout.copies:
+            for kind, channels in self._kinds[original].items():
+                yield kind, replace(copy, channels=channels), replace(original, channels=channels)
 
 
 def _find_gaps_at_the_ends(problem: GapProblem) -> tuple[list[Gap], list[Gap]]:
@@ -107,29 +161,3 @@ def _find_gaps_at_the_ends(problem: GapProblem) -> tuple[list[Gap], list[Gap]]:
     n_frames, gaps = len(problem.given.times), find_gaps(problem.target)
     first = [gap for gap in gaps if gap.start == 0]
     return first, [gap for gap in gaps if gap.stop == n_frames and gap.start > 0]
-
-
-def _group_interior_gaps(problem: GapProblem) -> tuple[Episode, ...]:
-    """Return the episodes of the gaps that are not at an end."""
-    ends = {gap for gaps in _find_gaps_at_the_ends(problem) for gap in gaps}
-    return group_gaps([gap for gap in find_gaps(problem.target) if gap not in ends])
-
-
-def _hide_copies(problem: GapProblem, layout: EpisodeLayout) -> HoldOut:
-    frames = np.arange(layout.start, layout.stop)
-    recording = problem.given.frames(frames)
-    owners = np.full(problem.target.shape, -1, dtype=np.int32)
-    for number, episode in enumerate(layout.copies):
-        for gap in episode.gaps:
-            owners[gap.start : gap.stop, list(gap.channels)] = number
-    owners = owners[frames]
-    target = owners >= 0
-    entries = (np.flatnonzero(owners[target] == number) for number in range(len(layout.copies)))
-    return HoldOut(
-        problem=GapProblem(recording.hide(target), target, problem.train),
-        truth=recording.values[target],
-        entries=tuple(entries),
-        copies=tuple(layout.copies),
-        originals=tuple(layout.originals),
-        share=layout.share,
-    )

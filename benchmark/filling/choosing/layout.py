@@ -18,35 +18,43 @@ from mocapbench.datasets import Mask
 __all__ = ["EpisodeLayout", "EpisodeQueue"]
 
 _SHARES = (1.0, 0.5, 0.25, 0.125)
-"""By which episodes are shortened that fit nowhere."""
-_COPIES = 10
-"""Episodes in a hold-out, where the recording has fewer and room for more."""
+"""By which gaps are shortened that fit nowhere."""
+COPIES = 10
+"""Episodes in a hold-out, where there is room for so many."""
 
 
 class EpisodeQueue:
-    """Which of the real gaps is copied next: over all hold-outs, all get equally many copies.
+    """Which of the real gaps is copied next: each group gets equally many copies.
+
+    Within a group, each episode gets equally many.
 
     Parameters
     ----------
-    episodes : sequence of Episode
+    groups : sequence of sequence of Episode
+        None of them is empty.
     rng : numpy.random.Generator
         Of the order in which they are copied.
     """
 
-    def __init__(self, episodes: Sequence[Episode], rng: np.random.Generator) -> None:
-        self.n_per_hold_out = max(_COPIES, len(episodes)) if episodes else 0
-        self._episodes, self._rng = episodes, rng
-        self._waiting: deque[int] = deque()
+    def __init__(self, groups: Sequence[Sequence[Episode]], rng: np.random.Generator) -> None:
+        self._groups = [*groups]
+        self._waiting: list[deque[int]] = [deque() for _ in groups]
+        self._turn, self._rng = 0, rng
+
+    def __bool__(self) -> bool:
+        return bool(self._groups)
 
     def peek(self) -> Episode:
         """Return the first episode of the queue, which stays the first until it is popped."""
-        if not self._waiting:
-            self._waiting.extend(self._rng.permutation(len(self._episodes)).tolist())
-        return self._episodes[self._waiting[0]]
+        group, waiting = self._groups[self._turn], self._waiting[self._turn]
+        if not waiting:
+            waiting.extend(self._rng.permutation(len(group)).tolist())
+        return group[waiting[0]]
 
     def pop(self) -> None:
         """Remove the first episode from the queue."""
-        self._waiting.popleft()
+        self._waiting[self._turn].popleft()
+        self._turn = (self._turn + 1) % len(self._groups)
 
 
 class EpisodeLayout:
@@ -64,9 +72,7 @@ class EpisodeLayout:
     def __init__(self, hidden: Mask, used: Mask, rng: np.random.Generator) -> None:
         self.blocked, self.used, self.rng = hidden.copy(), used, rng
         self.start, self.stop = 0, len(hidden)
-        self.copies: list[Episode] = []
-        self.originals: list[Episode] = []
-        self.share = 1.0
+        self.copies: list[tuple[Gap, Gap]] = []
 
     def begin(self, gaps: Sequence[Gap]) -> None:
         """Have the hold-out begin with copies of ``gaps``, within the first third."""
@@ -88,28 +94,21 @@ class EpisodeLayout:
         """Place copies of the episodes of a queue, as many as a hold-out may hide, or one.
 
         One that does not fit beside those as it is waits for the next hold-out, where it is the
-        first; there it is shortened if need be.
+        first. If it does not fit there either, its gaps are placed one by one, and shortened if
+        need be: so a long gap does not shorten those that overlap with it.
         """
-        room = MOST_HIDDEN * (self.stop - self.start)
-        hidden = 0
-        for _ in range(queue.n_per_hold_out):
+        room, hidden = MOST_HIDDEN * (self.stop - self.start), 0
+        for _ in range(COPIES):
             episode = queue.peek()
             if hidden and hidden + len(episode) > room:
                 return
-            has_others = bool(self.copies)
-            shares = _SHARES[:1] if has_others else _SHARES
-            copy = self._place(episode, self.start, self.stop, shares)
-            if copy is None and has_others:
-                return
+            if self._place(episode, self.start, self.stop, _SHARES[:1]) is None:
+                if self.copies:
+                    return
+                for gap in episode.gaps:
+                    self._place(Episode((gap,)), self.start, self.stop)
             hidden += len(episode)
             queue.pop()
-            if copy is None and len(episode.gaps) > 1:
-                self._place_apart(episode)
-
-    def _place_apart(self, episode: Episode) -> None:
-        """Place the gaps of an episode that does not fit as a whole, each by itself."""
-        for gap in episode.gaps:
-            self._place(Episode((gap,)), self.start, self.stop)
 
     def _place(
         self, episode: Episode, first: int, stop: int, shares: Sequence[float] = _SHARES
@@ -121,21 +120,19 @@ class EpisodeLayout:
             starts = starts[(starts >= first) & (starts + len(shorter) <= stop)]
             if len(starts):
                 copy = shorter.move(self._draw_start(starts, len(shorter)) - shorter.start)
-                self._add(copy, episode, share)
+                self._add(copy, episode)
                 return copy
         return None
 
-    def _add(self, copy: Episode, original: Episode, share: float) -> None:
-        """Note a copy, and block as many frames on both sides of it, in all channels.
+    def _add(self, copy: Episode, original: Episode) -> None:
+        """Note the copy of each gap with the gap, and block as many frames on both sides.
 
-        So held-out gaps do not make each other harder.
+        They are blocked in all channels, so that held-out gaps do not make each other harder.
         """
         margin = len(copy)
         self.blocked[max(copy.start - margin, 0) : copy.stop + margin] = True
         self.used[copy.start : copy.stop] = True
-        self.copies.append(copy)
-        self.originals.append(original)
-        self.share = min(self.share, share)
+        self.copies += zip(copy.gaps, original.gaps, strict=True)
 
     def _draw_start(self, starts: Index, length: int) -> int:
         """Return a random start, where earlier hold-outs hid nothing if there is one."""

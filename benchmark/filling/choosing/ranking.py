@@ -19,7 +19,7 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.basics.arrays import Array, Index
-from mocapbench.benchmark.filling.choosing.hold_outs import HoldOut
+from mocapbench.benchmark.filling.choosing.hold_outs import HeldOutGap
 from mocapbench.metrics.statistics import ALPHA, holm_tests_of_means, too_few, unit_means
 
 __all__ = ["Ranking", "number_positions", "rank"]
@@ -61,15 +61,20 @@ class Ranking:
     sharing: tuple[str, ...]
 
     @property
+    def near(self) -> tuple[str, ...]:
+        """The models that err little more than the first, which are that one and others."""
+        most = _NEAR * self.means[self.order[0]]
+        return tuple(model for model in self.order if self.means[model] <= most)
+
+    @property
     def rivals(self) -> tuple[str, ...]:
         """The models next to the first that no test separates from it, and that err little more.
 
         Where errors differ much from gap to gap, no test separates some that err ten times as much,
         or that are behind others which are separated.
         """
-        most = _NEAR * self.means[self.order[0]]
         alike = takewhile(lambda model: model in self.sharing, self.order[1:])
-        return tuple(model for model in alike if self.means[model] <= most)
+        return tuple(model for model in alike if model in self.near)
 
 
 def rank(errors: Mapping[str, Array], weights: Array, positions: Index) -> Ranking:
@@ -115,13 +120,13 @@ def _find_models_alike(losses: pd.DataFrame, shares: Array) -> tuple[str, ...]:
     return (best, *(model for model, is_alike in zip(others, alike, strict=True) if is_alike))
 
 
-def number_positions(hold_outs: Sequence[HoldOut]) -> Index:
+def number_positions(gaps: Sequence[HeldOutGap]) -> Index:
     """Return the position of each held-out gap (n,), numbered along the recording from 0.
 
     The first held-out gaps to end at each position share no frames with each other, and there are
     as many of them as there can be.
     """
-    copies = [copy for hold_out in hold_outs for copy in hold_out.copies]
+    copies = [gap.copy for gap in gaps]
     positions = np.empty(len(copies), dtype=np.intp)
     position, stop = -1, -np.inf
     for number in sorted(range(len(copies)), key=lambda n: copies[n].stop):

@@ -6,9 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.gap_problem import (
+    GapProblem,
+    cut_blank_ends,
+    select_channels,
+)
 from mocapbench.benchmark.filling.gaps import Gap, find_gaps, mask_ends, mask_gaps
 from mocapbench.benchmark.filling.requests.channels import match_channels
 from mocapbench.benchmark.filling.requests.refusals import (
@@ -20,7 +25,10 @@ from mocapbench.benchmark.filling.requests.refusals import (
 from mocapbench.datasets import Mask, Recording, unwrap_angles
 from mocapbench.datasets.formats.strays import is_unlabelled
 
-__all__ = ["FillRequest", "NamedEntries", "select"]
+__all__ = ["BEST", "FillRequest", "NamedEntries", "select"]
+
+BEST = "best"
+"""In place of a model's name: the one with the least error in held-out gaps of its kind."""
 
 
 @dataclass(frozen=True)
@@ -39,12 +47,15 @@ class NamedEntries:
     fill_ends : bool
         Whether hidden entries before the first visible one of their channel and after the last are
         filled, too, where anything is visible.
+    model : str
+        Which model fills them, or `BEST`.
     """
 
     frames: tuple[int, int] | None = None
     channels: str | None = None
     max_gap: float | None = None
     fill_ends: bool = False
+    model: str = BEST
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +68,10 @@ class FillRequest:
         N frames of D channels, of which all entries to fill are hidden.
     target : ndarray of bool of shape (N, D)
         The entries to fill.
+    models : ndarray of str of shape (M,)
+        By which model to fill each of them, in the order of ``np.nonzero(target)``, or `BEST`.
+    train : tuple of Recording
+        Others that models learn from, with the channels of this one, in its order.
     left_open : tuple of Gap
         Gaps that were asked for, and are longer than allowed.
     unlabelled : tuple of str
@@ -78,7 +93,9 @@ class FillRequest:
 
     given: Recording
     target: Mask
-    left_open: tuple[Gap, ...]
+    models: NDArray[np.str_]
+    train: tuple[Recording, ...] = ()
+    left_open: tuple[Gap, ...] = ()
     unlabelled: tuple[str, ...] = ()
     unknown: tuple[str, ...] = ()
     replaced: int = 0
@@ -91,6 +108,17 @@ class FillRequest:
     def gaps(self) -> tuple[Gap, ...]:
         """The gaps to fill."""
         return find_gaps(self.target)
+
+    @property
+    def problem(self) -> GapProblem:
+        """What models are to fill.
+
+        It is without unlabelled markers and results of a model of the body of which nothing is to
+        be filled, and without frames at the ends in which nothing else is visible.
+        """
+        wanted = match_channels(self.given, None, self.results) | self.target.any(axis=0)
+        problem = GapProblem(self.given, self.target, self.train)
+        return cut_blank_ends(select_channels(problem, wanted))
 
 
 def select(
@@ -139,6 +167,8 @@ def select(
     return FillRequest(
         unwrap_angles(open_too),
         target,
+        np.full(int(target.sum()), entries.model),
+        tuple(train),
         left_open,
         unlabelled,
         unknown,

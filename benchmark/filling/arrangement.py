@@ -1,0 +1,56 @@
+"""One arrangement of a problem, in whatever order and by whatever names its recordings come.
+
+Sums of numbers differ in their last digits by the order of their terms, and models draw at random
+by the order of channels. So models are given channels by name, training recordings by what they
+contain, and no names of files.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from hashlib import sha256
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.basics.arrays import Index
+from mocapbench.benchmark.filling.gap_problem import GapProblem
+from mocapbench.datasets import Recording
+
+__all__ = ["arrange", "arrange_entries", "restore_entries"]
+
+
+def arrange(problem: GapProblem) -> tuple[GapProblem, Index]:
+    """Return the problem, arranged, and which of its channels (D,) each one was."""
+    channels = problem.given.channels
+    order = np.array(sorted(range(len(channels)), key=channels.__getitem__))
+    names = [channels[channel] for channel in order]
+    train = sorted((recording.select(names) for recording in problem.train), key=_digest)
+    arranged = GapProblem(
+        replace(problem.given.select(names), name="the recording"),
+        problem.target[:, order],
+        tuple(replace(one, name=f"training {n}") for n, one in enumerate(train, start=1)),
+    )
+    return arranged, order
+
+
+def arrange_entries(entries: NDArray[Any], arranged: GapProblem, order: Index) -> NDArray[Any]:
+    """Return values of the wanted entries (M,) of a problem in the order of the arranged one."""
+    target = arranged.target[:, np.argsort(order)]
+    values = np.empty(target.shape, entries.dtype)
+    values[target] = entries
+    return values[:, order][arranged.target]
+
+
+def restore_entries(entries: NDArray[Any], arranged: GapProblem, order: Index) -> NDArray[Any]:
+    """Return values of the wanted entries (M,) of an arranged problem in the order from before."""
+    values = np.empty(arranged.target.shape, entries.dtype)
+    values[arranged.target] = entries
+    as_before = np.argsort(order)
+    return values[:, as_before][arranged.target[:, as_before]]
+
+
+def _digest(recording: Recording) -> bytes:
+    parts = (recording.values, recording.times - recording.times[0])
+    return sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in parts)).digest()
