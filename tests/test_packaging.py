@@ -144,6 +144,7 @@ def test_the_wheel_holds_the_packages_and_their_data_alone(tree, wheel):
     assert {"mocapbench/reports/page/parts/page.html.j2", "mocapbench/metrics/__init__.pyi"} <= held
     parts = ("parts/player.html.j2", "scripts/player.js", "styles/player.css")
     assert {f"mocapbench/reports/page/{part}" for part in parts} <= held
+    assert "mocapbench/benchmark/filling/costs.csv" in held
     assert not any("/test_" in name for name in held)
 
 

@@ -108,7 +108,8 @@ def fill(
     choice = choose(problem, workers, effort, watch) if BEST in named else None
     all_kinds, kinds = _number_kinds(problem)
     plan = list(_plan_models(named, [all_kinds[k] for k in kinds.tolist()], choice))
-    attempts = _attempt_in_turn(problem, [candidates for _, candidates in plan], workers)
+    work = choice.work if choice else np.inf
+    attempts = _attempt_in_turn(problem, [each for _, each in plan], workers, work)
     models = np.empty(named.shape, object)
     for entries, candidates in plan:
         models[entries] = _find_first(candidates, attempts)
@@ -169,16 +170,20 @@ def _plan_models(
 
 
 def _attempt_in_turn(
-    problem: GapProblem, candidates: Sequence[Sequence[str]], workers: Workers
+    problem: GapProblem, candidates: Sequence[Sequence[str]], workers: Workers, work: float
 ) -> dict[str, FillAttempt]:
-    """Have the first of each sequence of candidates fill the problem, or else the next."""
+    """Have the first of each sequence of candidates fill the problem, or else the next.
+
+    Intervals are calibrated where that takes no more work than is allowed.
+    """
     attempts: dict[str, FillAttempt] = {}
     path = workers.keep(problem)
     while models := {_find_first(each, attempts) for each in candidates} - attempts.keys():
-        futures = {
-            workers.submit(model, path, predict_calibrated_seconds(model, problem)): model
-            for model in sorted(models)
-        }
+        futures = {}
+        for model in sorted(models):
+            seconds = predict_calibrated_seconds(model, problem)
+            method = "impute" if seconds <= work else "impute_uncalibrated"
+            futures[workers.submit(model, path, seconds, method)] = model
         ended = workers.collect(futures.keys())
         attempts |= {model: ended[future] for future, model in futures.items()}
     return attempts

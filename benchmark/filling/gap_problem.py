@@ -6,7 +6,7 @@ window around the gaps of a longer recording, and to the beginnings of the other
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,6 +23,7 @@ __all__ = [
     "cut_blank_ends",
     "cut_windows",
     "drop_unseen",
+    "place_windows",
     "pose_imputing",
     "select_channels",
 ]
@@ -121,16 +122,30 @@ def cut_windows(problem: GapProblem, max_frames: int | None) -> list[tuple[slice
     ValueError
         If a gap is too long for any window.
     """
+    if max_frames is None or problem.n_frames <= max_frames:
+        return [(slice(0, len(problem.given.times)), problem)]
+    lengths = _share_frames(problem.train, max_frames // 2)
+    train = tuple(
+        recording.frames(np.arange(length))
+        for recording, length in zip(problem.train, lengths, strict=True)
+        if length
+    )
+    return [
+        (frames, _cut_window(problem, frames, wanted, train))
+        for frames, wanted in place_windows(problem, max_frames)
+    ]
+
+
+def place_windows(problem: GapProblem, max_frames: int | None) -> list[tuple[slice, slice]]:
+    """Return the frames of each window of `cut_windows`, and those between which it wants gaps."""
     n_frames = len(problem.given.times)
     if max_frames is None or problem.n_frames <= max_frames:
-        return [(slice(0, n_frames), problem)]
-    train = tuple(_cut_beginnings(problem.train, max_frames // 2))
-    room = max_frames - sum(len(recording.times) for recording in train)
-    windows = []
-    for first, stop in _group_gaps_by_window(problem, room):
-        frames = _centre_window(first, stop, room, n_frames)
-        windows.append((frames, _cut_window(problem, frames, slice(first, stop), train)))
-    return windows
+        return [(slice(0, n_frames),) * 2]
+    room = max_frames - sum(_share_frames(problem.train, max_frames // 2))
+    return [
+        (_centre_window(first, stop, room, n_frames), slice(first, stop))
+        for first, stop in _group_gaps_by_window(problem, room)
+    ]
 
 
 def _cut_window(
@@ -166,9 +181,7 @@ def _centre_window(first: int, stop: int, room: int, n_frames: int) -> slice:
     return slice(start, min(start + room, n_frames))
 
 
-def _cut_beginnings(recordings: Sequence[Recording], room: int) -> Iterator[Recording]:
-    """Yield the first frames of each recording, about ``room`` in all."""
+def _share_frames(recordings: Sequence[Recording], room: int) -> list[int]:
+    """Return how many first frames of each recording are taken, about ``room`` in all."""
     share = room // max(len(recordings), 1)
-    for recording in recordings:
-        if share:
-            yield recording.frames(np.arange(min(share, len(recording.times))))
+    return [min(share, len(recording.times)) for recording in recordings]

@@ -16,7 +16,7 @@ from mocapbench.benchmark.filling.choosing.hold_outs import HoldOut, has_room, m
 from mocapbench.benchmark.filling.choosing.kinds import Kind
 from mocapbench.benchmark.filling.choosing.ranking import Ranking
 from mocapbench.benchmark.filling.choosing.scores import list_gaps
-from mocapbench.benchmark.filling.costs import predict_calibrated_seconds
+from mocapbench.benchmark.filling.costs import predict_calibrated_seconds, predict_seconds
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.filling.workers import Workers
@@ -49,8 +49,10 @@ class Choice:
         Those that the ranked models filled.
     contenders : tuple of Contender
         All models that were compared.
+    work : float
+        Seconds of a core, as predicted, that the choice and each model's fill may take.
     too_dear : tuple of str
-        Models that were left out beforehand, since they would take too much work.
+        Models that were left out beforehand, since they would take more.
     with_intervals : frozenset of str
         The ranked models that have a predictive distribution.
     in_intervals : mapping of Kind to ndarray of bool of shape (n,)
@@ -61,6 +63,7 @@ class Choice:
     rankings: Mapping[Kind, Ranking]
     hold_outs: tuple[HoldOut, ...]
     contenders: tuple[Contender, ...]
+    work: float = np.inf
     too_dear: tuple[str, ...] = ()
     with_intervals: frozenset[str] = frozenset()
     in_intervals: Mapping[Kind, Mask] = field(default_factory=dict)
@@ -112,7 +115,7 @@ def choose(
         raise _explain_no_room(problem)
     work = _allow_work(problem, effort)
     models = find_candidates(problem)
-    able = [m for m in models if predict_calibrated_seconds(m, problem) <= work]
+    able = [model for model in models if predict_seconds(model, problem) <= work]
     contenders = run_rungs(able, hold_outs, workers, work, watch)
     n_filled = max(len(one.predictions) for one in contenders)
     if not n_filled:
@@ -125,10 +128,11 @@ def choose(
         rank_by_kind(contenders, filled),
         filled,
         tuple(contenders),
+        work,
         tuple(model for model in models if model not in able),
         _find_those_with_intervals(contenders, n_filled),
     )
-    return replace(choice, in_intervals=check_intervals(choice, workers, work))
+    return replace(choice, in_intervals=check_intervals(choice, workers))
 
 
 def _allow_work(problem: GapProblem, effort: str) -> float:
@@ -167,7 +171,7 @@ def _explain_no_room(problem: GapProblem) -> UsageError:
     )
 
 
-def check_intervals(choice: Choice, workers: Workers, work: float) -> dict[Kind, Mask]:
+def check_intervals(choice: Choice, workers: Workers) -> dict[Kind, Mask]:
     """Return which hidden entries are in the intervals of the first model of each kind.
 
     Of a model of which that would take more work, nothing is checked.
@@ -177,7 +181,7 @@ def check_intervals(choice: Choice, workers: Workers, work: float) -> dict[Kind,
     futures = {}
     for model in sorted({*firsts.values()} & choice.with_intervals):
         seconds = [predict_calibrated_seconds(model, one.problem) for one in checked]
-        if sum(seconds) <= work:
+        if sum(seconds) <= choice.work:
             for one, each in zip(checked, seconds, strict=True):
                 futures[workers.submit(model, workers.keep(one.problem), each)] = model, one
     inside: dict[Kind, list[Mask]] = {}
