@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
 
 import numpy as np
 import pandas as pd
@@ -89,50 +88,69 @@ def run_rungs(
         Called with the number of hold-outs that models have filled and the total so far.
     """
     contenders = [Contender(model) for model in models]
-    going, spent = contenders, 0.0
-    for start, stop in pairwise((0, *(n for n in _RUNGS if n < len(hold_outs)), len(hold_outs))):
-        share = 1.0 if start else _AT_FIRST
-        rung = hold_outs[start:stop]
-        going, cost = _afford(going, rung, share * (work - spent))
-        spent += cost
-        _fill_rung(going, rung, workers, watch)
-        rankings = rank_by_kind(going, hold_outs[:stop])
-        going = _drop_worse(going, rankings)
+    rung = hold_outs[: _RUNGS[0]]
+    costs = _afford(_predict_costs(contenders, rung), _AT_FIRST * work)
+    left, n_filled = work, 0
+    while costs and rung:
+        left -= sum(map(sum, costs.values()))
+        _fill_rung(costs, rung, workers, watch)
+        n_filled += len(rung)
+        rankings = rank_by_kind([*costs], hold_outs[:n_filled])
+        going = _drop_worse([*costs], rankings)
         if all(len(_find_best(one)) == 1 for one in rankings.values()):
             break
+        rung = hold_outs[n_filled : next((n for n in _RUNGS if n > n_filled), None)]
+        rung, costs = _shorten(rung, _predict_costs(going, rung), left)
     return contenders
 
 
+def _predict_costs(
+    going: Sequence[Contender], rung: Sequence[HoldOut]
+) -> dict[Contender, list[float]]:
+    """Return the seconds of work that each hold-out of a rung takes each contender."""
+    # One hold-out after another, since finding its sizes takes longer than all predictions.
+    costs = [[predict_seconds(one.model, each.problem) for one in going] for each in rung]
+    return dict(zip(going, map(list, zip(*costs, strict=True)), strict=True))
+
+
 def _afford(
-    going: Sequence[Contender], rung: Sequence[HoldOut], work: float
-) -> tuple[list[Contender], float]:
-    """Return those of which there is work for all of a rung, and how much that is."""
-    able, spent = [], 0.0
-    for one in going:
-        cost = sum(predict_seconds(one.model, hold_out.problem) for hold_out in rung)
-        if spent + cost <= work:
-            able.append(one)
-            spent += cost
+    costs: Mapping[Contender, Sequence[float]], work: float
+) -> dict[Contender, Sequence[float]]:
+    """Return those of which there is work for a first rung, in turn, with their costs."""
+    able, spent = {}, 0.0
+    for one, of_one in costs.items():
+        if spent + sum(of_one) <= work:
+            able[one] = of_one
+            spent += sum(of_one)
         else:
-            one.ending = f"would take {cost:.2g} s of work more than --effort leaves for it"
-    return able, spent
+            one.ending = f"would take {sum(of_one):.2g} s of work, more than --effort leaves for it"
+    return able
+
+
+def _shorten(
+    rung: Sequence[HoldOut], costs: Mapping[Contender, Sequence[float]], work: float
+) -> tuple[Sequence[HoldOut], dict[Contender, Sequence[float]]]:
+    """Return as many hold-outs of a rung as there is work for, by all contenders, and the costs."""
+    spent = np.cumsum(np.sum([*costs.values()], axis=0))
+    n = int(np.searchsorted(spent, work, side="right"))
+    return rung[:n], {one: of_one[:n] for one, of_one in costs.items()}
 
 
 def _fill_rung(
-    going: Sequence[Contender],
+    costs: Mapping[Contender, Sequence[float]],
     rung: Sequence[HoldOut],
     workers: Workers,
     watch: Callable[[int, int], object],
 ) -> None:
-    """Have all contenders fill all hold-outs of a rung."""
+    """Have contenders fill all hold-outs of a rung, each of which takes so many seconds of work."""
     problems = [workers.keep(hold_out.problem) for hold_out in rung]
-    futures = {}
-    for one in going:
-        for hold_out, problem in zip(rung, problems, strict=True):
-            seconds = predict_seconds(one.model, hold_out.problem)
-            futures[workers.submit(one.model, problem, seconds, "impute_uncalibrated")] = one
+    futures = {
+        workers.submit(one.model, problem, seconds, "impute_uncalibrated"): one
+        for one, of_one in costs.items()
+        for problem, seconds in zip(problems, of_one, strict=True)
+    }
     attempts = workers.collect(futures.keys(), watch)
-    for one in going:
+    for one in costs:
         one.record([attempts[future] for future, owner in futures.items() if owner is one])
 
 
@@ -142,6 +160,8 @@ def rank_by_kind(
     """Return the ranking of the contenders that filled all hold-outs, for each kind of gap."""
     gaps = list_gaps(hold_outs)
     able = [one for one in contenders if len(one.predictions) >= len(hold_outs)]
+    if not able:
+        return {}
     errors = {one.model: score_gaps(hold_outs, one.predictions) for one in able}
     rankings = {}
     for kind in sorted({gap.kind for gap in gaps}):
