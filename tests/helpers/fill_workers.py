@@ -7,31 +7,45 @@ from mocapbench.benchmark.registry import MODELS, find_calibration
 
 
 class Here:
-    """Workers of this process, which need no time; slow models take longer than any limit."""
+    """Workers of this process, which begin attempts in the order of a generator if there is one.
 
-    count = 2
+    Models that are ``stopped`` exceed every limit, and those that are ``failing`` cannot do it.
+    """
 
-    def __init__(self, slow=()):
-        self.slow, self.kept, self.limits, self.asked = slow, [], [], []
+    def __init__(self, seed=0, *, rng=None, stopped=(), failing=()):
+        self.seed, self.rng, self.stopped, self.failing = seed, rng, {*stopped}, {*failing}
+        self.kept, self.submitted, self.waiting = [], [], {}
 
     def keep(self, problem):
         self.kept.append(problem)
         return len(self.kept) - 1
 
-    def submit(self, model, problem, seconds, method):
-        self.limits.append((model, seconds))
-        self.asked.append(method)
-        ended = Future()
-        if model in self.slow:
-            ended.set_result(FillAttempt(None, "took longer", timed_out=True))
-        else:
-            given, calibration = self.kept[problem], find_calibration(model)
-            made = attempt_fill(MODELS.get(model), given, 2**45, method, calibration)
-            ended.set_result(made)
-        return ended
+    def submit(self, model, problem, seconds, method="impute"):
+        self.submitted.append((model, problem, seconds, method))
+        future = Future()
+        self.waiting[future] = model, self.kept[problem], method
+        return future
 
-    def wait_for_any(self, futures):
-        return list(futures)[:1]
+    def collect(self, futures, watch=lambda *_: None):
+        order = [*futures]
+        if self.rng is not None:
+            self.rng.shuffle(order)
+        attempts = {}
+        for future in order:
+            attempts[future] = self.attempt(*self.waiting.pop(future))
+            watch(len(attempts), len(order))
+        return attempts
 
-    def collect(self, future):
-        return future.result()
+    def attempt(self, model, problem, method):
+        if model in self.stopped:
+            return FillAttempt(None, "was stopped", stopped=True)
+        if model in self.failing:
+            return FillAttempt(None, "cannot do it")
+        return attempt_fill(
+            MODELS.get(model),
+            problem,
+            2**45,
+            seed=self.seed,
+            method=method,
+            calibration=find_calibration(model),
+        )

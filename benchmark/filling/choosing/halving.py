@@ -41,7 +41,7 @@ class Contender:
     ----------
     model : str
     predictions : list of PredictedEntries
-        Those of the first hold-outs, in order.
+        Those of the first hold-outs, in order; none of a model that failed in one.
     ending : str
         Why it has no more of them.
     stopped : bool
@@ -57,12 +57,13 @@ class Contender:
     n_windows: int = 0
 
     def record(self, attempts: Sequence[FillAttempt]) -> None:
-        """Record the attempts at the next hold-outs, up to the first that failed."""
+        """Record the attempts at the next hold-outs; if one failed, no other counts."""
         for attempt in attempts:
             self.n_windows = max(self.n_windows, attempt.n_windows)
             self.stopped |= attempt.stopped
             if attempt.prediction is None:
                 self.ending = attempt.failure
+                self.predictions.clear()
                 return
             self.predictions.append(attempt.prediction)
 
@@ -88,7 +89,8 @@ def run_rungs(
         Called with the number of hold-outs that models have filled and the total so far.
     """
     contenders = [Contender(model) for model in models]
-    rung = hold_outs[: _RUNGS[0]]
+    first, *later = _list_rungs(hold_outs)
+    rung = hold_outs[:first]
     costs = _afford(_predict_costs(contenders, rung), _AT_FIRST * work)
     left, n_filled = work, 0
     while costs and rung:
@@ -99,9 +101,22 @@ def run_rungs(
         going = _drop_worse([*costs], rankings)
         if all(len(_find_best(one)) == 1 for one in rankings.values()):
             break
-        rung = hold_outs[n_filled : next((n for n in _RUNGS if n > n_filled), None)]
+        rung = hold_outs[n_filled : next((stop for stop in later if stop > n_filled), n_filled)]
         rung, costs = _shorten(rung, _predict_costs(going, rung), left)
     return contenders
+
+
+def _list_rungs(hold_outs: Sequence[HoldOut]) -> list[int]:
+    """Return how many hold-outs are filled after each rung; after the first, some of every kind.
+
+    Otherwise models were dropped that are the best of another kind.
+    """
+    first: dict[Kind, int] = {}
+    for number, hold_out in enumerate(hold_outs, start=1):
+        for gap in hold_out.gaps:
+            first.setdefault(gap.kind, number)
+    least, n = max(first.values()), len(hold_outs)
+    return sorted({min(max(stop, least), n) for stop in (*_RUNGS, n)})
 
 
 def _predict_costs(
@@ -123,7 +138,7 @@ def _afford(
             able[one] = of_one
             spent += sum(of_one)
         else:
-            one.ending = f"would take {sum(of_one):.2g} s of work, more than --effort leaves for it"
+            one.ending = f"would take {sum(of_one):.2g} s of work, more than --effort leaves"
     return able
 
 

@@ -1,18 +1,20 @@
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from mocapbench.benchmark.filling.choosing.choice import Choice
+from mocapbench.benchmark.filling.choosing.halving import Contender
+from mocapbench.benchmark.filling.choosing.hold_outs import HeldOutGap, HoldOut
+from mocapbench.benchmark.filling.choosing.kinds import Kind
 from mocapbench.benchmark.filling.choosing.ranking import rank
-from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gap_problem import PredictedEntries
-from mocapbench.benchmark.filling.input_files import InputFile
-from mocapbench.benchmark.filling.requests.request import FillRequest
-from mocapbench.datasets import CSVFormat, Recording
+from mocapbench.benchmark.filling.gaps import Gap
+from mocapbench.benchmark.filling.requests.request import BEST, FillRequest
+from mocapbench.datasets import Recording
 
 CHANNELS = ("hip.rx", "hip.ry", "knee.rx", "root.ty")
 UNITS = ("deg", "deg", "deg", "cm")
+KIND = Kind("deg", "one marker or joint", "up to 0.25 s")
 
 
 @pytest.fixture
@@ -43,16 +45,30 @@ def hidden():
 
 @pytest.fixture
 def filled(waves, hidden):
-    """Return a function from what is special to a filled file."""
+    """Return a function from what is special to a filled recording; ``one`` filled all."""
 
-    def make(choice=None, *, left_open=(), n_windows=0, failed=()):
-        target = hidden((50, 60, [0, 1]))
-        request = FillRequest(waves().hide(target), target, left_open)
-        prediction = PredictedEntries(waves().values[target], np.ones(20))
-        input_file = InputFile(Path("waves.csv"), CSVFormat(), request, ())
-        return FilledFile(input_file, "one", prediction, n_windows, choice, failed)
+    def make(choice=None, request=None, mean=None, *, variance=1.0, n_windows=0, **special):
+        target = hidden((50, 60, [0, 1])) if request is None else request.target
+        n = int(target.sum())
+        mean = waves().values[target] if mean is None else np.full(n, mean)
+        return FilledRecording(
+            request or request_of(waves(), target, special.pop("left_open", ())),
+            PredictedEntries(mean, None if variance is None else np.full(n, variance)),
+            np.full(n, "one"),
+            np.zeros(n, dtype=int),
+            (KIND,),
+            choice,
+            special.pop("failed", {}),
+            {"one": n_windows},
+            **special,
+        )
 
     return make
+
+
+def request_of(whole, target, left_open=()):
+    models = np.full(int(target.sum()), BEST)
+    return FillRequest(whole.hide(target), target, models, left_open=left_open)
 
 
 @pytest.fixture
@@ -63,9 +79,9 @@ def choice_of():
         errors = {model: np.array(each, dtype=float) for model, each in errors.items()}
         n = len(next(iter(errors.values())))
         at = np.arange(n) if positions is None else np.array(positions)
-        rmse = {model: {"deg": 1.0} for model in errors}
-        seconds, n_windows = dict.fromkeys(errors, 0.1), dict.fromkeys(errors, 2)
-        ranking = rank(errors, np.ones(n), at)
-        return Choice(ranking, (), share, rmse, frozenset(), seconds, n_windows)
+        copy, original = Gap(0, round(20 * share), (0,)), Gap(100, 120, (0,))
+        hold_out = HoldOut(None, None, (HeldOutGap(KIND, copy, original, np.arange(1)),))
+        contenders = (Contender(model, [None], n_windows=2) for model in errors)
+        return Choice({KIND: rank(errors, np.ones(n), at)}, (hold_out,), tuple(contenders))
 
     return make

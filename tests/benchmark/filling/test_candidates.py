@@ -3,10 +3,10 @@ import pytest
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.candidates import find_candidates, require_candidate
+from mocapbench.benchmark.filling.costs import predict_seconds
 from mocapbench.benchmark.filling.gap_problem import GapProblem
+from mocapbench.benchmark.registry import build_unfitted
 from mocapbench.datasets import Recording
-
-FIRST_TO_LAST = ("pchip", "rigid-body", "channel-kriging", "lds", "mohgp", "best-of")
 
 
 def problem(channels):
@@ -31,9 +31,25 @@ def test_models_that_need_a_process_are_no_candidates():
     assert not {"oracle", "control"} & set(find_candidates(problem(("LKNE.x", "LKNE.y", "LKNE.z"))))
 
 
-def test_models_start_the_sooner_the_less_they_take_or_the_more_they_are_made_for_it():
-    names = find_candidates(problem(("LKNE.x", "LKNE.y", "LKNE.z", "force")))
-    starts = [names.index(name) for name in FIRST_TO_LAST]
-    assert starts == sorted(starts)
-    assert names[-1] == "best-of"
-    assert {"marker-kriging", "rigid-body"} == {*names[starts[1] - 1 : starts[1] + 1]}
+MARKERS = problem(("LKNE.x", "LKNE.y", "LKNE.z", "force"))
+
+
+def test_interpolations_come_first_then_what_is_most_promising_then_others_by_their_work():
+    names = find_candidates(MARKERS)
+    interpolating = [n for n in names if "interpolates" in build_unfitted(n).provides]
+    assert interpolating
+    promising = ["marker-kriging", "rigid-body", "channel-kriging", "lds"]
+    first = [*interpolating, *promising]
+    assert [*names[: len(first)]] == first
+    seconds = [predict_seconds(name, MARKERS) for name in names[len(first) :]]
+    assert seconds == sorted(seconds)
+    assert len(names) == len({*names})
+
+
+def test_joints_have_pose_kriging_among_the_most_promising():
+    hidden = np.zeros((9, 2), dtype=bool)
+    hidden[3:5] = True
+    whole = Recording("r", np.arange(9.0), np.zeros((9, 2)), ("hip.rx", "hip.ry"), ("deg", "deg"))
+    names = find_candidates(GapProblem(whole.hide(hidden), hidden))
+    promising = [name for name in names if name in {"pose-kriging", "channel-kriging", "lds"}]
+    assert promising == ["pose-kriging", "channel-kriging", "lds"]

@@ -7,8 +7,9 @@ import format_files
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.filling.choosing.schedule import Contender
-from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.benchmark.filling.choosing.halving import Contender
+from mocapbench.benchmark.filling.choosing.kinds import Kind
+from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gap_problem import PredictedEntries
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.benchmark.filling.page import compose_page
@@ -16,14 +17,21 @@ from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.datasets import AcclaimFormat, CSVFormat, Recording
 from mocapbench.reports import render_filled
 
+KIND = Kind("", "one marker or joint", "up to 0.25 s")
 
-def page_for(whole, target, filled):
+
+def page_for(whole, target, values, path=Path("waves.csv"), file_format=None):
     """Return the page of a file of which the target was filled with these values."""
-    input_file = InputFile(
-        Path("waves.csv"), CSVFormat(), FillRequest(whole.hide(target), target, ()), ()
+    n = int(target.sum())
+    request = FillRequest(whole.hide(target), target, np.full(n, "one"))
+    prediction = PredictedEntries(values[target], np.ones(n))
+    filled = FilledRecording(
+        *(request, prediction, request.models, np.zeros(n, dtype=int), (KIND,)),
+        None,
+        {},
+        {"one": 0},
     )
-    prediction = PredictedEntries(filled[target], np.ones(int(target.sum())))
-    return compose_page(FilledFile(input_file, "one", prediction, 0, None, ()), "mocapbench fill")
+    return compose_page(InputFile(path, file_format or CSVFormat(), request), filled, "fill")
 
 
 @pytest.mark.parametrize("length", [1, 2, 4, 5, 12, 30])
@@ -33,11 +41,7 @@ def test_figures_show_filled_frames_and_frames_of_the_file_beside_them(tmp_path,
     format_files.write_acclaim(path, walk)
     target = np.zeros(walk.values.shape, dtype=bool)
     target[start : start + length, 10] = True
-    input_file = InputFile(path, AcclaimFormat(), FillRequest(walk.hide(target), target, ()), ())
-    prediction = PredictedEntries(walk.values[target], np.ones(length))
-    panel = compose_page(
-        FilledFile(input_file, "one", prediction, 0, None, ()), "mocapbench fill"
-    ).motion
+    panel = page_for(walk, target, walk.values, path, AcclaimFormat()).motion
     groups = [curve.group for curve in panel.curves]
     assert {*groups} == {"filled", "in the file"}
     assert groups[-1] == "in the file"
@@ -85,32 +89,45 @@ def test_gaps_of_the_whole_file_are_drawn(waves, hidden):
     assert {whole.times[49], whole.times[109], whole.times[889]} <= starts
 
 
+def page_of_choice(filled):
+    return compose_page(InputFile(Path("waves.csv"), CSVFormat(), filled.request), filled, "fill")
+
+
 def test_the_ranking_notes_the_choice_and_over_whom_its_lead_may_be_chance(filled, choice_of):
-    choice = choice_of({"one": [1, 2, 1, 2, 1], "two": [2, 1, 2, 1.5, 1]})
-    page = compose_page(filled(choice), "mocapbench fill")
-    assert [*page.errors] == ["one", "two"]
-    assert page.errors == choice.ranking.means
-    assert page.notes["one"] == "chosen, fitted to windows"
-    assert page.notes["two"].startswith("lead of one may be chance")
+    choice = choice_of({"one": [1, 2, 1, 2, 1], "two": [2, 1, 2, 1.5, 1], "bad": [9] * 5})
+    page = page_of_choice(filled(choice))
+    ((title, table),) = page.rankings.items()
+    assert title == "one marker or joint, up to 0.25 s, deg: 5 held-out gaps"
+    assert [*table.columns] == ["model", "error, deg", ""]
+    (ranking,) = choice.rankings.values()
+    assert dict(zip(table["model"], table["error, deg"], strict=True)) == ranking.means
+    assert [*table[""]] == [
+        "chosen, fitted to windows",
+        "lead of one may be chance, fitted to windows",
+        "fitted to windows",
+    ]
+    assert "error, deg" in render_filled(page)
 
 
-def test_units_that_no_held_out_gap_has_are_not_in_the_ranking(filled, choice_of, waves, hidden):
-    one = filled(choice_of({"one": [1, 2], "two": [2, 3]}))
-    target = hidden((50, 60, [0, 1]), (0, 5, [3]))
-    request = FillRequest(waves().hide(target), target, ())
-    prediction = PredictedEntries(waves().values[target], None)
-    input_file = replace(one.input_file, request=request)
-    page = compose_page(replace(one, input_file=input_file, prediction=prediction), "fill")
-    assert page.units == ("deg",)
-    assert "RMSE, deg" in render_filled(page)
+def test_a_kind_of_which_another_model_filled_does_not_note_the_first_as_chosen(filled, choice_of):
+    choice = choice_of({"two": [1, 2], "one": [2, 3]})
+    (table,) = page_of_choice(filled(choice)).rankings.values()
+    assert [*table[""]] == ["fitted to windows", "chosen, fitted to windows"]
 
 
-def test_a_model_without_a_rank_is_listed_with_what_it_did_and_why(filled, choice_of):
-    contender = Contender(
-        "slow", {0: None, 1: None, 5: None}, failure="took longer", timed_out=True
+def test_a_model_without_a_rank_is_listed_with_why(filled, choice_of):
+    choice = choice_of({"one": [1, 2]})
+    slow = Contender("slow", [None], "erred twice as far")
+    choice = replace(choice, contenders=(*choice.contenders, slow), too_dear=("dear",))
+    page = page_of_choice(filled(choice))
+    assert page.left_out == (
+        ("slow", "erred twice as far"),
+        ("dear", "would take more work than --effort allows, to fill the file"),
     )
-    choice = replace(
-        choice_of({"one": [1, 2]}), left_out=(contender, Contender("bad", failure="no"))
-    )
-    page = compose_page(filled(choice), "mocapbench fill")
-    assert page.left_out == (("slow", "2 hold-outs filled; took longer"), ("bad", "no"))
+
+
+def test_a_page_of_a_named_model_has_no_ranking(filled):
+    page = page_of_choice(filled())
+    assert not page.rankings
+    assert not page.left_out
+    assert "How models were chosen" not in render_filled(page)

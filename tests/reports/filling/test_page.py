@@ -2,9 +2,15 @@ import re
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from mocapbench.reports import FilledCurve, FilledPage, render_filled
+
+
+def ranked(*errors):
+    notes = ["chosen", "fitted to windows"]
+    return pd.DataFrame({"model": ["linear", "hold"], "error, deg": errors, "": notes})
 
 
 @pytest.fixture
@@ -18,17 +24,12 @@ def page():
     return FilledPage(
         file="walk.csv",
         headline="linear filled 4 entries in 1 gap.",
-        verdict="Its lead over hold is more than chance, over 9 held-out gaps.",
+        verdict=("longer, deg: linear leads hold by more than chance, over 9 held-out gaps.",),
         remarks=("1 longer gap was left open.",),
         curves=(curve,),
         caption="The only gap.",
         motion=None,
-        units=("deg",),
-        n_gaps=9,
-        errors={"linear": 0.5, "hold": 1.5},
-        rmse={"linear": {"deg": 1.25}, "hold": {"deg": 3.25}},
-        seconds={"linear": 0.1, "hold": 0.1},
-        notes={"linear": "chosen", "hold": ""},
+        rankings={"longer, deg: 9 held-out gaps": ranked(1.25, 13.5), "up to 1 s": ranked(4, 5)},
         left_out=(("mohgp", "took longer than 2 s"),),
         command="mocapbench fill walk.csv",
     )
@@ -36,8 +37,8 @@ def page():
 
 def test_the_page_says_all_that_it_is_given(page):
     text = render_filled(page)
-    said = [page.headline, page.verdict, *page.remarks, page.command, "knee.rx", "9 held-out gaps"]
-    said += ["1.25", "3.25", "mohgp", "took longer than 2 s"]
+    said = [page.headline, *page.verdict, *page.remarks, page.command, "knee.rx", *page.rankings]
+    said += ["1.25", "13.50", "error, deg", "fitted to windows", "mohgp", "took longer than 2 s"]
     assert [words for words in said if words not in text] == []
 
 
@@ -62,8 +63,9 @@ def test_the_same_page_gives_the_same_bytes(page):
 
 
 def test_without_held_out_gaps_there_is_no_ranking(page):
-    text = render_filled(replace(page, errors={}, left_out=(), verdict="", n_gaps=0))
-    assert "How the model was chosen" not in text
+    heading = "How models were chosen"
+    assert heading in render_filled(page)
+    assert heading not in render_filled(replace(page, rankings={}, left_out=(), verdict=()))
 
 
 def test_ids_are_unique(page):

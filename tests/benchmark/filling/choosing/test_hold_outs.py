@@ -1,11 +1,15 @@
+from collections import Counter
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.filling.choosing.hold_outs import make_hold_outs
+from mocapbench.benchmark.filling.choosing.hold_outs import has_room, make_hold_outs
+from mocapbench.benchmark.filling.choosing.kinds import Kind, tell_kinds
+from mocapbench.benchmark.filling.choosing.scores import list_gaps
 from mocapbench.benchmark.filling.gap_problem import GapProblem
-from mocapbench.benchmark.filling.gaps import find_gaps, mask_ends
+from mocapbench.benchmark.filling.gaps import Gap, find_gaps, mask_ends, mask_gaps
 from mocapbench.datasets import Recording
 
 N_FRAMES = 200
@@ -35,7 +39,7 @@ def test_hold_outs_know_the_truth_and_hide_it(blocks):
         whole = np.arange(3.0 * N_FRAMES).reshape(N_FRAMES, 3)[first : first + len(target)]
         np.testing.assert_array_equal(hold_out.truth, whole[target])
         assert not hold_out.problem.given.visible[target].any()
-        positions = np.sort(np.concatenate(hold_out.entries))
+        positions = np.sort(np.concatenate([gap.entries for gap in hold_out.gaps]))
         np.testing.assert_array_equal(positions, np.arange(target.sum()))
         seen = hold_out.problem.given.visible
         np.testing.assert_array_equal(hold_out.problem.given.values[seen], whole[seen])
@@ -45,11 +49,16 @@ def test_hold_outs_know_the_truth_and_hide_it(blocks):
 @given(BLOCKS)
 def test_every_held_out_gap_has_the_shape_of_a_real_one(blocks):
     asked = problem(blocks)
-    real = {(len(gap), gap.channels) for gap in find_gaps(asked.target)}
+    kinds = tell_kinds(asked)
     for hold_out in make_hold_outs(asked, np.random.default_rng(0)):
-        if hold_out.share == 1.0:
-            made = {(len(gap), gap.channels) for gap in find_gaps(hold_out.problem.target)}
-            assert made <= real
+        first = round(hold_out.problem.given.times[0] * 10)
+        for gap in hold_out.gaps:
+            assert kinds[gap.original][gap.kind] == gap.copy.channels == gap.original.channels
+            assert len(gap.copy) <= len(gap.original)
+        hidden = mask_gaps((gap.copy.move(-first) for gap in hold_out.gaps), asked.target.shape)
+        target = hold_out.problem.target
+        np.testing.assert_array_equal(hidden[: len(target)], target)
+        assert hidden.sum() == target.sum()
 
 
 @settings(deadline=None)
@@ -72,19 +81,18 @@ def test_gaps_at_the_ends_are_tried_at_the_ends():
         assert {gap.channels for gap in gaps if gap.stop == len(hold_out.problem.target)} == {(1,)}
 
 
-def test_gaps_get_equally_many_copies():
-    asked = problem([(20, 5, 0), (80, 25, 1), (150, 10, 2)])
+def test_gaps_of_a_kind_get_about_equally_many_copies():
+    asked = problem([(20, 12, 0), (80, 25, 1), (150, 15, 2)])
     hold_outs = make_hold_outs(asked, np.random.default_rng(0))
-    lengths = [len(unit) for hold_out in hold_outs for unit in hold_out.entries]
-    counts = [lengths.count(length) for length in (5, 25, 10)]
-    assert max(counts) - min(counts) <= 1
+    counts = Counter(len(gap.copy) for gap in list_gaps(hold_outs))
+    assert {*counts} == {12, 15, 25}
+    assert max(counts.values()) - min(counts.values()) <= 2
 
 
 def test_a_gap_longer_than_any_visible_stretch_is_shortened():
     asked = problem([(60, 110, 0)])
     hold_outs = make_hold_outs(asked, np.random.default_rng(0))
-    assert hold_outs
-    assert {hold_out.share for hold_out in hold_outs} == {0.5}
+    assert {len(gap.copy) for gap in list_gaps(hold_outs)} == {55}
 
 
 def test_there_is_no_hold_out_without_room():
@@ -105,8 +113,7 @@ def test_no_gap_is_shortened_that_fits_once_another_hold_out_has_the_room():
     asked = problem([(10, 8, 0), (50, 30, 1), (120, 30, 2)])
     for seed in range(10):
         hold_outs = make_hold_outs(asked, np.random.default_rng(seed))
-        assert {hold_out.share for hold_out in hold_outs} == {1.0}
-        assert {len(unit) for hold_out in hold_outs for unit in hold_out.entries} == {8, 30}
+        assert {len(gap.copy) for gap in list_gaps(hold_outs)} == {8, 30}
 
 
 @settings(deadline=None)
@@ -116,7 +123,7 @@ def test_gaps_at_the_ends_are_held_out_only_where_there_are_no_others(blocks):
     at_ends = mask_ends(asked.given.visible)
     inner = {gap for gap in find_gaps(asked.target) if not at_ends[gap.start, gap.channels[0]]}
     for hold_out in make_hold_outs(asked, np.random.default_rng(0)):
-        copied = {gap for original in hold_out.originals for gap in original.gaps}
+        copied = {gap.original for gap in hold_out.gaps}
         assert copied <= inner or not inner
 
 
@@ -139,6 +146,55 @@ def test_a_hold_out_that_ends_in_a_gap_may_end_anywhere_in_the_last_third():
     asked = problem([(170, 30, 0)])
     hold_outs = [t for seed in range(5) for t in make_hold_outs(asked, np.random.default_rng(seed))]
     ends = [len(hold_out.problem.target) for hold_out in hold_outs]
-    assert {hold_out.share for hold_out in hold_outs} == {1.0}
+    assert {len(gap.copy) for gap in list_gaps(hold_outs)} == {30}
     assert 133 <= min(ends) < 145
     assert 160 < max(ends) < 170
+
+
+def markers(n_frames, *gaps, rate=100):
+    """Return the problem of filling gaps (start, length, markers) of three markers, at 100 Hz."""
+    target = np.zeros((n_frames, 9), dtype=bool)
+    for start, length, hidden in gaps:
+        for marker in hidden:
+            target[start : start + length, 3 * marker : 3 * marker + 3] = True
+    values = np.arange(9.0 * n_frames).reshape(n_frames, 9)
+    names = tuple(f"{marker}.{axis}" for marker in "ABC" for axis in "xyz")
+    whole = Recording("r", np.arange(n_frames) / rate, values, names, ("mm",) * 9)
+    return GapProblem(whole.hide(target), target)
+
+
+EVERY_KIND = ((100, 5, [0]), (300, 60, [1]), (500, 20, [0, 1, 2]), (800, 8, [0]), (900, 7, [0]))
+
+
+def test_all_kinds_of_gaps_get_about_equally_many_copies():
+    asked = markers(6000, *EVERY_KIND)
+    for seed in range(5):
+        hold_outs = make_hold_outs(asked, np.random.default_rng(seed))
+        counts = Counter(gap.kind for gap in list_gaps(hold_outs))
+        assert {*counts} == {
+            Kind("mm", "one marker or joint", "up to 0.25 s"),
+            Kind("mm", "one marker or joint", "up to 1 s"),
+            Kind("mm", "whole frames", "up to 0.25 s"),
+        }
+        assert min(counts.values()) >= 24
+        assert max(counts.values()) <= 1.1 * min(counts.values())
+
+
+def test_a_gap_of_ten_seconds_shortens_no_other():
+    """It fits nowhere, whatever else is held out beside it or overlaps with it in the file."""
+    for beside in ((1600, 20, [2]), (500, 20, [1])):
+        asked = markers(1700, (300, 1000, [0]), (100, 20, [1]), (1450, 90, [2]), beside)
+        for seed in range(3):
+            hold_outs = make_hold_outs(asked, np.random.default_rng(seed))
+            shortened = {g.original for g in list_gaps(hold_outs) if len(g.copy) < len(g.original)}
+            assert shortened == {Gap(300, 1300, (0, 1, 2))}
+            copied = {gap.original.start for gap in list_gaps(hold_outs)}
+            assert copied == {300, 100, 1450, beside[0]}
+
+
+@settings(deadline=None)
+@given(BLOCKS)
+def test_there_is_room_if_a_hold_out_can_be_made(blocks):
+    asked = problem(blocks)
+    made = make_hold_outs(asked, np.random.default_rng(0))
+    assert has_room(asked, np.random.default_rng(0)) is bool(made)

@@ -1,3 +1,6 @@
+from collections import Counter
+from itertools import islice
+
 import numpy as np
 import pytest
 
@@ -5,20 +8,37 @@ from mocapbench.benchmark.filling.choosing.layout import EpisodeQueue
 from mocapbench.benchmark.filling.gaps import Episode, Gap
 
 
-def make_queue(count):
-    episodes = [Episode((Gap(10 * n, 10 * n + 5, (0,)),)) for n in range(count)]
-    return EpisodeQueue(episodes, np.random.default_rng(0)), episodes
+def make_queue(*counts):
+    """Return a queue of groups of so many episodes, and the groups."""
+    starts = iter(range(0, 10 * sum(counts), 10))
+    groups = [[Episode((Gap(n, n + 5, (0,)),)) for n in islice(starts, count)] for count in counts]
+    return EpisodeQueue(groups, np.random.default_rng(0)), groups
+
+
+def take(queue, count):
+    """Return the start of each of the next episodes."""
+    starts = []
+    for _ in range(count):
+        starts.append(queue.peek().start)
+        queue.pop()
+    return starts
 
 
 @pytest.mark.parametrize("count", [1, 3, 12])
 def test_each_is_copied_before_any_is_copied_again(count):
-    queue, episodes = make_queue(count)
+    queue, (group,) = make_queue(count)
     for _ in range(3):
-        seen = []
-        for _ in range(count):
-            seen.append(queue.peek())
-            queue.pop()
-        assert sorted(episode.start for episode in seen) == [one.start for one in episodes]
+        assert sorted(take(queue, count)) == [episode.start for episode in group]
+
+
+@pytest.mark.parametrize("counts", [(1, 5), (4, 1, 2)])
+def test_each_group_gets_equally_many_copies_and_within_it_each_episode(counts):
+    queue, groups = make_queue(*counts)
+    seen = Counter(take(queue, 20 * len(counts)))
+    for group in groups:
+        copies = [seen[episode.start] for episode in group]
+        assert sum(copies) == 20
+        assert max(copies) - min(copies) <= 1
 
 
 def test_the_first_stays_the_first_until_it_is_popped():
@@ -27,4 +47,5 @@ def test_the_first_stays_the_first_until_it_is_popped():
 
 
 def test_without_episodes_nothing_is_copied():
-    assert make_queue(0)[0].n_per_hold_out == 0
+    assert not make_queue()[0]
+    assert make_queue(1)[0]

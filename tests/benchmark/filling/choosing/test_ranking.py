@@ -5,6 +5,7 @@ from hypothesis import strategies as st
 
 from mocapbench.benchmark.filling.choosing.hold_outs import make_hold_outs
 from mocapbench.benchmark.filling.choosing.ranking import number_positions, rank
+from mocapbench.benchmark.filling.choosing.scores import list_gaps
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.datasets import Recording
 
@@ -82,13 +83,17 @@ def problem(n_frames, *gaps, rng=None):
     return GapProblem(Recording("r", times, values, ("a", "b"), ("mm",) * 2).hide(target), target)
 
 
+def number(hold_outs):
+    return number_positions(list_gaps(hold_outs))
+
+
 def spans_of(hold_outs):
     """Return the frames of each held-out gap, as hold-outs hide them."""
     for hold_out in hold_outs:
         first = round(hold_out.problem.given.times[0] * 30)
         frames = first + np.nonzero(hold_out.problem.target)[0]
-        for gap in hold_out.entries:
-            yield set(range(frames[gap].min() - 1, frames[gap].max() + 2))
+        for gap in hold_out.gaps:
+            yield set(range(frames[gap.entries].min() - 1, frames[gap.entries].max() + 2))
 
 
 GAPS = st.lists(st.tuples(st.integers(0, 190), st.integers(1, 60)), min_size=1, max_size=3)
@@ -100,7 +105,7 @@ def test_a_position_is_a_held_out_gap_with_those_that_share_frames_with_it(gaps)
     hold_outs = make_hold_outs(
         problem(200, *((a, a + n) for a, n in gaps)), np.random.default_rng(0)
     )
-    spans, positions = list(spans_of(hold_outs)), number_positions(hold_outs)
+    spans, positions = list(spans_of(hold_outs)), number(hold_outs)
     firsts = []
     for position in range(len(set(positions.tolist()))):
         here = [span for span, at in zip(spans, positions, strict=True) if at == position]
@@ -112,10 +117,10 @@ def test_a_position_is_a_held_out_gap_with_those_that_share_frames_with_it(gaps)
 def test_held_out_gaps_of_a_short_recording_are_at_two_positions():
     hold_outs = make_hold_outs(problem(200, (70, 130)), np.random.default_rng(0))
     assert len(hold_outs) > 10
-    assert set(number_positions(hold_outs).tolist()) == {0, 1}
+    assert set(number(hold_outs).tolist()) == {0, 1}
 
 
 def test_held_out_gaps_of_a_long_recording_are_nearly_all_at_positions_of_their_own():
     hold_outs = make_hold_outs(problem(1500, (700, 715)), np.random.default_rng(0))
-    positions = number_positions(hold_outs)
-    assert len(set(positions.tolist())) > 0.9 * len(positions) > 40
+    positions = number(hold_outs)
+    assert len(set(positions.tolist())) > 0.9 * len(positions) > 20
