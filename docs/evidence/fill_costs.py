@@ -156,7 +156,7 @@ def _make_markers(rng: np.random.Generator, name: str, n_frames: int, count: int
 def measure(path: Path, models: Sequence[str]) -> None:
     """Add to a file what some models take, or all, of what it does not have."""
     rows = _read_rows(path)
-    for grid, method in itertools.product(GRID, METHODS):
+    for method, grid in itertools.product(METHODS, GRID):
         problem = make_problem(grid)
         for name in _find_models(problem, method):
             key = {"model": name, "method": method, **grid._asdict()}
