@@ -257,9 +257,10 @@ class FrameImputer(Model):
     fill_cost: ClassVar[Mapping[str, float] | None] = None
     """What it costs to fit the model to a recording and fill it: the coefficient ``"seconds"`` and
     the exponents of a power law of the sizes of the problem, which are ``"frames"``,
-    ``"channels"``, ``"gaps"``, ``"longest"`` (frames of the longest gap) and ``"widest"`` (the most
-    channels hidden in a frame); what is left out has the exponent 0. ``mocapbench fill`` decides by
-    it whether there is time for the model. Models that were measured need none."""
+    ``"channels"``, ``"gaps"``, ``"longest"`` (frames of the longest gap), ``"groups"`` (of channels
+    that are hidden together) and ``"parts"`` (gaps of each channel beside visible ones); what is
+    left out has the exponent 0. ``mocapbench fill`` decides by it whether there is time for the
+    model. Models that were measured need none."""
     learns_in_fit: ClassVar[bool] = True
     """Whether `fit` learns anything. A model that only keeps the recordings, and learns when it
     fills one of them, is `Calibrated` by recordings held out besides: that costs nothing."""

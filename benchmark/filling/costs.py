@@ -9,18 +9,19 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Mapping
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from mocapbench.basics.arrays import Index
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.gap_problem import GapProblem, drop_unseen, place_windows
-from mocapbench.benchmark.filling.gaps import find_gaps
+from mocapbench.benchmark.filling.gaps import Gap, find_gaps
 from mocapbench.benchmark.registry import UNCALIBRATED, build_unfitted, find_calibration
+from mocapbench.datasets import Mask
 
 __all__ = [
     "STAND_IN",
@@ -56,11 +57,14 @@ class Sizes(NamedTuple):
     channels : float
         That are visible somewhere, or wanted.
     gaps : float
-        The mean number in a window; channels hidden over the same frames have one together.
+        Their mean number in a window; channels hidden over the same frames have one together.
     longest : float
         Frames of the longest gap.
-    widest : float
-        The most channels that are hidden in a frame.
+    groups : float
+        Of channels that have all their gaps together; their mean number in a window.
+    parts : float
+        Gaps of each channel in frames where others are visible; their mean number in a window.
+        Where all gaps are of whole frames it is 1.
     """
 
     windows: float
@@ -68,7 +72,8 @@ class Sizes(NamedTuple):
     channels: float
     gaps: float
     longest: float
-    widest: float
+    groups: float
+    parts: float
 
 
 def predict_seconds(name: str, problem: GapProblem) -> float:
@@ -161,27 +166,53 @@ def measure_sizes(problem: GapProblem, max_frames: int | None) -> Sizes:
     ValueError
         If a gap is too long for any window.
     """
-    n_channels, gaps, widest = _find_hidden(problem)
-    windows = [frames for frames, _ in place_windows(problem, max_frames)]
+    n_channels, gaps, parts = _find_gaps(problem)
     n_frames = min(problem.n_frames, max_frames or problem.n_frames)
-    starts, stops = gaps.T
-    in_windows = [np.sum((starts < each.stop) & (stops > each.start)) for each in windows]
-    return Sizes(
-        windows=len(windows),
-        frames=n_frames,
-        channels=n_channels,
-        gaps=max(float(np.mean(in_windows)), 1.0),
-        longest=min(max((stops - starts).tolist(), default=1), n_frames),
-        widest=widest,
-    )
+    windows = [frames for frames, _ in place_windows(problem, max_frames)]
+    counts = [
+        (len(each), _count_groups(each), sum(len(part.channels) for part in parts.within(frames)))
+        for frames, each in zip(windows, map(gaps.within, windows), strict=True)
+    ]
+    n_gaps, n_groups, n_parts = np.maximum(np.mean(counts, axis=0), 1.0).tolist()
+    longest = min(gaps.longest, n_frames)
+    return Sizes(len(windows), n_frames, n_channels, n_gaps, longest, n_groups, n_parts)
+
+
+class _Gaps:
+    """Gaps that can be looked up by frames."""
+
+    def __init__(self, hidden: Mask) -> None:
+        self._gaps = find_gaps(hidden)
+        self._starts, self._stops = (
+            np.array([getattr(gap, end) for gap in self._gaps], dtype=int)
+            for end in ("start", "stop")
+        )
+
+    @property
+    def longest(self) -> int:
+        """Frames of the longest gap, at least 1."""
+        return max(map(len, self._gaps), default=1)
+
+    def within(self, frames: slice) -> list[Gap]:
+        """Return the gaps that a window has, or a part of them."""
+        near = (self._starts < frames.stop) & (self._stops > frames.start)
+        return [self._gaps[number] for number in np.flatnonzero(near)]
 
 
 @lru_cache(maxsize=1)  # of the problem of which models are asked one after another
-def _find_hidden(problem: GapProblem) -> tuple[int, Index, int]:
-    """Return how many channels count, the bounds of all gaps (K, 2), and the size ``widest``."""
-    hidden = ~drop_unseen(problem).given.visible
-    bounds = [(gap.start, gap.stop) for gap in find_gaps(hidden)]
-    return hidden.shape[1], np.reshape(bounds, (-1, 2)), max(int(hidden.sum(axis=1).max()), 1)
+def _find_gaps(problem: GapProblem) -> tuple[int, _Gaps, _Gaps]:
+    """Return how many channels count, all gaps, and those in frames where others are visible."""
+    visible = drop_unseen(problem).given.visible
+    return visible.shape[1], _Gaps(~visible), _Gaps(~visible & visible.any(axis=1, keepdims=True))
+
+
+def _count_groups(gaps: Sequence[Gap]) -> int:
+    """Return how many groups of channels have all their gaps together."""
+    gaps_of: dict[int, list[int]] = defaultdict(list)
+    for number, gap in enumerate(gaps):
+        for channel in gap.channels:
+            gaps_of[channel].append(number)
+    return len({tuple(numbers) for numbers in gaps_of.values()})
 
 
 @cache

@@ -211,11 +211,11 @@ def _count_processor_time() -> float:
     return used.ru_utime + used.ru_stime
 
 
-PRIOR = {"frames": 1.0, "channels": 1.0, "gaps": 0.3, "longest": 0.0, "widest": 0.0}
+PRIOR = {"frames": 1.0, "channels": 1.0, "gaps": 0.3, "longest": 0.0, "groups": 0.0, "parts": 0.0}
 """The exponents that a model has where measurements say nothing."""
-MOST = {"frames": 3.5, "channels": 3.5, "gaps": 1.0, "longest": 3.5, "widest": 3.5}
+MOST = {"frames": 3.5, "channels": 3.5, "gaps": 1.0, "longest": 3.5, "groups": 1.0, "parts": 1.0}
 """The largest exponents; that of gaps in a window is at most 1, or more windows would cost less."""
-DOUBT = 3.0
+DOUBT = 1.0
 """How far exponents may be from those, in the unit of the logarithms of seconds."""
 
 

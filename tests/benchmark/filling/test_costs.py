@@ -27,7 +27,7 @@ from mocapbench.datasets import Recording
 
 PREDICTIONS = (predict_seconds, predict_calibrated_seconds)
 MEASURED = sorted({name for name, _ in load_measured_costs()})
-LARGEST = Sizes(200, 36_000, 300, 500, 3000, 300)
+LARGEST = Sizes(200, 36_000, 300, 500, 3000, 300, 5000)
 
 
 def make_problem(*, n_frames=300, n_channels=6, n_gaps=2, length=10, width=3, n_train=0):
@@ -101,7 +101,7 @@ def test_costs_grow_with_every_size_of_a_problem(key, sizes, more):
 def test_to_cut_a_problem_into_more_windows_does_not_make_it_cheaper(key, n_windows, n_gaps):
     cost = load_measured_costs()[key]
     one, more = (
-        count_seconds(cost, Sizes(n, 200, 30, n_windows * n_gaps / n, 20, 3))
+        count_seconds(cost, Sizes(n, 200, 30, n_windows * n_gaps / n, 20, 3, 3))
         for n in (1, n_windows)
     )
     assert more >= one * (1 - 1e-12)
@@ -112,7 +112,7 @@ GROWING = {
     "n_channels": (6, 60, 120),
     "n_gaps": (2, 5, 8),
     "length": (5, 10, 30),
-    "width": (1, 3, 6),
+    "width": (1, 3, 5),  # gaps of whole frames are of another kind, which some models fill sooner
     "n_train": (0, 1, 3),
 }
 
@@ -151,8 +151,20 @@ def test_values_do_not_count():
 
 def test_sizes_are_those_of_the_windows_that_a_model_fills():
     problem = make_problem(n_frames=3000, n_gaps=3, length=20, width=2, n_train=1)
-    assert measure_sizes(problem, None) == (1, 6000, 6, 3, 20, 2)
-    assert measure_sizes(problem, 500) == (3, 500, 6, 1, 20, 2)
+    assert measure_sizes(problem, None) == (1, 6000, 6, 3, 20, 1, 6)
+    assert measure_sizes(problem, 500) == (3, 500, 6, 1, 20, 1, 2)
+
+
+def test_gaps_of_whole_frames_have_no_parts():
+    assert measure_sizes(make_problem(width=6), None)[3:] == (2, 10, 1, 1)
+
+
+def test_channels_that_have_all_gaps_together_are_a_group():
+    problem = make_problem(n_gaps=2, width=4)
+    mask = np.zeros(problem.target.shape, dtype=bool)
+    mask[100:105, 2:5] = True
+    more = GapProblem(problem.given.hide(mask), problem.target)
+    assert measure_sizes(more, None)[3:] == (3, 10, 3, 2 * 4 + 3)
 
 
 def test_gaps_beside_those_wanted_count_where_a_window_has_them():
