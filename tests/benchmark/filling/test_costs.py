@@ -240,3 +240,12 @@ def test_costs_of_another_form_are_refused(register, declared):
 def test_a_model_without_its_calibration_costs_the_same_before_calibration():
     problem = make_problem()
     assert predict_seconds("lds-uncalibrated", problem) == predict_seconds("lds", problem)
+
+
+def test_a_gap_that_is_left_open_counts_as_far_as_a_window_has_it():
+    problem = make_problem(n_frames=3000, n_gaps=3, length=20)
+    mask = np.zeros(problem.target.shape, dtype=bool)
+    mask[500:2500, 5] = True
+    beside = GapProblem(problem.given.hide(mask), problem.target)
+    assert measure_sizes(beside, None).longest == 2000
+    assert measure_sizes(beside, 500).longest == 500
