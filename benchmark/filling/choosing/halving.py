@@ -89,20 +89,20 @@ def run_rungs(
         Called with the number of hold-outs that models have filled and the total so far.
     """
     contenders = [Contender(model) for model in models]
-    first, *later = _list_rungs(hold_outs)
-    rung = hold_outs[:first]
-    costs = _afford(_predict_costs(contenders, rung), _AT_FIRST * work)
-    left, n_filled = work, 0
-    while costs and rung:
+    going, left, start = contenders, work, 0
+    for stop in _list_rungs(hold_outs):
+        costs = _predict_costs(going, hold_outs[start:stop])
+        costs = _shorten(costs, left) if start else _afford(costs, _AT_FIRST * left)
+        rung = hold_outs[start : start + min(map(len, costs.values()), default=0)]
+        if not rung:
+            break
         left -= sum(map(sum, costs.values()))
         _fill_rung(costs, rung, workers, watch)
-        n_filled += len(rung)
-        rankings = rank_by_kind([*costs], hold_outs[:n_filled])
+        start += len(rung)
+        rankings = rank_by_kind([*costs], hold_outs[:start])
         going = _drop_worse([*costs], rankings)
-        if all(len(_find_best(one)) == 1 for one in rankings.values()):
+        if start < stop or all(len(_find_best(one)) == 1 for one in rankings.values()):
             break
-        rung = hold_outs[n_filled : next((stop for stop in later if stop > n_filled), n_filled)]
-        rung, costs = _shorten(rung, _predict_costs(going, rung), left)
     return contenders
 
 
@@ -121,7 +121,7 @@ def _list_rungs(hold_outs: Sequence[HoldOut]) -> list[int]:
 
 def _predict_costs(
     going: Sequence[Contender], rung: Sequence[HoldOut]
-) -> dict[Contender, list[float]]:
+) -> dict[Contender, Sequence[float]]:
     """Return the seconds of work that each hold-out of a rung takes each contender."""
     # One hold-out after another, since finding its sizes takes longer than all predictions.
     costs = [[predict_seconds(one.model, each.problem) for one in going] for each in rung]
@@ -143,12 +143,12 @@ def _afford(
 
 
 def _shorten(
-    rung: Sequence[HoldOut], costs: Mapping[Contender, Sequence[float]], work: float
-) -> tuple[Sequence[HoldOut], dict[Contender, Sequence[float]]]:
-    """Return as many hold-outs of a rung as there is work for, by all contenders, and the costs."""
+    costs: Mapping[Contender, Sequence[float]], work: float
+) -> dict[Contender, Sequence[float]]:
+    """Return the costs of as many hold-outs as there is work for, by all contenders."""
     spent = np.cumsum(np.sum([*costs.values()], axis=0))
     n = int(np.searchsorted(spent, work, side="right"))
-    return rung[:n], {one: of_one[:n] for one, of_one in costs.items()}
+    return {one: of_one[:n] for one, of_one in costs.items()}
 
 
 def _fill_rung(
