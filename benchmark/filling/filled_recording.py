@@ -138,10 +138,11 @@ def require_fillable(request: FillRequest, seed: int) -> None:
     UsageError
         The message says what to do.
     """
+    problem, _ = arrange(request.problem)
     for name in sorted({*request.models.tolist()} - {BEST}):
-        require_candidate(name, request.problem)
+        require_candidate(name, problem)
     if BEST in request.models:
-        require_room(request.problem, seed)
+        require_room(problem, seed)
 
 
 def _number_kinds(problem: GapProblem) -> tuple[tuple[Kind, ...], Index]:

@@ -116,6 +116,11 @@ def choose(
     work = _allow_work(problem, effort)
     models = find_candidates(problem)
     able = [model for model in models if predict_seconds(model, problem) <= work]
+    if not able:
+        raise UsageError(
+            f"expected a model that takes no more work than --effort {effort} allows, got none; "
+            f"raise --effort, or name a model with --model: {', '.join(models)}"
+        )
     contenders = run_rungs(able, hold_outs, workers, work, watch)
     n_filled = max(len(one.predictions) for one in contenders)
     if not n_filled:

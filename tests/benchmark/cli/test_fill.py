@@ -74,7 +74,7 @@ def test_the_table_has_every_filled_entry(cli, walk, out):
 
 @pytest.mark.slow
 def test_the_best_model_is_chosen_and_the_page_shows_the_ranking(cli, walk, out):
-    assert cli("fill", walk, "--budget", "4", "--out", out) == 0
+    assert cli("fill", walk, "--effort", "low", "--out", out) == 0
     page = (out / "walk.csv.html").read_text()
     assert "held-out gap" in page
     assert "linear</th>" in page
@@ -84,7 +84,7 @@ def test_the_best_model_is_chosen_and_the_page_shows_the_ranking(cli, walk, out)
 
 def test_progress_is_shown_where_there_is_no_terminal(cli, walk, out, monkeypatch):
     monkeypatch.setattr(command, "_PLAIN_INTERVAL", 0.0)
-    assert cli("fill", walk, "--budget", "1", "--out", out) == 0
+    assert cli("fill", walk, "--effort", "low", "--out", out) == 0
     assert re.search(r"walk.csv: \d+ of \d+ hold-outs filled, \d+ s walk.csv: ", cli.printed)
 
 
@@ -128,7 +128,7 @@ def test_a_file_without_room_for_hold_outs_is_refused_and_others_are_filled(
 ):
     lost = save(tmp_path / "lost.csv", rows(gap=range(N_FRAMES)))
     whole = save(tmp_path / "whole.csv", rows(gap=()))
-    fill = ("fill", walk, lost, "--train", whole, "--budget", "2", "--out", out)
+    fill = ("fill", walk, lost, "--train", whole, "--effort", "low", "--out", out)
     assert cli(*fill) == 2
     assert "lost" in cli.printed
     assert "expected a visible stretch to try models on" in cli.printed
@@ -539,7 +539,7 @@ def test_likelihoods_that_are_not_there_are_refused(cli, walk, out):
 def test_rows_that_are_missing_are_said_or_added_and_filled(cli, walk, out, tmp_path, model):
     lines = walk.read_text().splitlines(keepends=True)
     walk.write_text("".join(lines[:80] + lines[84:]))
-    named = ("--model", model, "--budget", 2, "--out")
+    named = ("--model", model, "--effort", "low", "--out")
     assert cli("fill", walk, *named, out) == 0
     said = (
         "warning: walk.csv: 4 rows are missing, behind line 80, by the steps of 'time'; --insert-"
@@ -662,7 +662,7 @@ def test_a_file_that_is_open_at_its_ends_only_is_left_out_with_the_option(cli, w
     assert cli("fill", ends, walk, "--model", "linear", "--out", out) == 0
     assert "left out: " in cli.printed
     assert sorted(path.name for path in out.glob("*.csv")) == ["walk.csv", "walk.csv.entries.csv"]
-    assert cli("fill", ends, "--ends", "fill", "--budget", 2, "--out", out) == 0
+    assert cli("fill", ends, "--ends", "fill", "--effort", "low", "--out", out) == 0
     assert CSVFormat().read(out / "ends.csv").visible.all()
 
 
@@ -671,7 +671,7 @@ def test_a_model_is_chosen_by_the_gaps_and_not_by_the_ends(cli, tmp_path, out):
     """Somebody is there for half of the time, so that copies of the ends would fit nowhere."""
     path = save(tmp_path / "a.csv", rows(gap={*range(40), *range(55, 60), *range(80, 120)}))
     for ends in ("open", "fill"):
-        options = ("--ends", ends, "--budget", 5, "--out", out / ends)
+        options = ("--ends", ends, "--effort", "low", "--out", out / ends)
         assert cli("fill", path, *options) == 0
         assert "held-out gaps are down to" not in cli.printed
 
