@@ -45,7 +45,8 @@ def fill(
         str | None, typer.Option(help="Fill frames A:B (0-based, without B), not the gaps.")
     ] = None,
     channels: Annotated[
-        str | None, typer.Option(help="Fill only channels that this regular expression matches.")
+        list[str] | None,
+        typer.Option(help="Fill only these markers, joints or channels: 'LKNE,R*'."),
     ] = None,
     out: Annotated[
         Path, typer.Option(help="The folder to write to; nothing in it is overwritten.")
@@ -92,7 +93,9 @@ def fill(
     """
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
-    entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap, ends == "fill", model)
+    entries = filling.NamedEntries(
+        _parse_frames(frames), _split_names(channels), max_gap, ends == "fill", model
+    )
     reading = filling.Reading(
         rate, min_likelihood, insert_missing, bench.choose_missing_rule(missing)
     )
@@ -189,6 +192,12 @@ def _parse_frames(frames: str | None) -> tuple[int, int] | None:
     if found is None:
         raise UsageError(f"--frames: expected A:B, such as 120:180, got {frames!r}")
     return int(found[1]), int(found[2])
+
+
+def _split_names(options: list[str] | None) -> tuple[str, ...]:
+    """Return what options list, each with commas between, without empty parts."""
+    parts = (part.strip() for option in options or () for part in option.split(","))
+    return tuple(filter(None, parts))
 
 
 def _quote_command() -> str:

@@ -8,7 +8,7 @@ import pandas as pd
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["find_jumps"]
+__all__ = ["find_jumps", "measure_edges"]
 
 _RELATIVE = 1e-6
 """Steps below this share of the values of a channel's unit, if it has one, are rounding."""
@@ -20,8 +20,17 @@ def find_jumps(recording: Recording, target: Mask) -> pd.DataFrame:
     """Return the jumps of a filled recording, the one that exceeds visible steps most first.
 
     A jump is a step between a visible and a filled frame that is a quarter longer than visible
-    ones. A step is |x(n + 1) − x(n)| of a channel x with frames n. A channel without two visible
-    frames in a row has no steps to compare with, and no jumps.
+    ones, see `measure_edges`.
+    """
+    edges = measure_edges(recording, target)
+    return edges[edges["jumps"]].drop(columns=["relative", "jumps"]).reset_index(drop=True)
+
+
+def measure_edges(recording: Recording, target: Mask) -> pd.DataFrame:
+    """Return the steps at the edges of filled gaps, that which exceeds visible ones most first.
+
+    A step is |x(n + 1) − x(n)| of a channel x with frames n. A channel without two visible frames
+    in a row has no steps to compare with, and is left out.
 
     Parameters
     ----------
@@ -33,25 +42,32 @@ def find_jumps(recording: Recording, target: Mask) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        A row a jump, with the filled ``frame`` (0-based), the ``channel`` (an index), the ``size``
-        of the step, and the ``largest`` of the steps between visible frames of the channel, both
-        in its unit.
+        A row a step between a visible and a filled frame, with the filled ``frame`` (0-based), the
+        ``channel`` (an index), the ``size`` of the step, the ``largest`` of the steps between
+        visible frames of the channel, both in its unit, ``relative``, the size by the largest, or
+        by rounding where the channel stands still, and whether it ``jumps``.
     """
     steps = np.abs(np.diff(recording.values, axis=0))
     visible = recording.visible & ~target
     within = visible[1:] & visible[:-1]
     largest = np.where(within, steps, 0.0).max(axis=0, initial=0.0)
-    edges = (target[1:] & visible[:-1]) | (visible[1:] & target[:-1])
-    longer = steps > _LONGER * largest + _find_rounding(recording, visible)
-    n, c = np.nonzero(edges & within.any(axis=0) & longer)
-    jumps = {
+    is_edge = (target[1:] & visible[:-1]) | (visible[1:] & target[:-1])
+    rounding = _find_rounding(recording, visible)
+    n, c = np.nonzero(is_edge & within.any(axis=0))
+    size, scale = steps[n, c], np.maximum(largest, rounding)[c]
+    edges = {
         "frame": n + target[n + 1, c],
         "channel": c,
-        "size": steps[n, c],
+        "size": size,
         "largest": largest[c],
+        "relative": np.divide(
+            size, scale, out=np.where(size > 0.0, np.inf, 0.0), where=scale > 0.0
+        ),
+        "jumps": size > (_LONGER * largest + rounding)[c],
     }
-    order = np.lexsort((c, jumps["frame"], largest[c] / steps[n, c]))
-    return pd.DataFrame(jumps).iloc[order].reset_index(drop=True)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        order = np.lexsort((c, edges["frame"], largest[c] / size))
+    return pd.DataFrame(edges).iloc[order].reset_index(drop=True)
 
 
 def _find_rounding(recording: Recording, visible: Mask) -> Array:

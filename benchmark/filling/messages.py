@@ -12,6 +12,7 @@ from mocapbench.benchmark.filling.choosing.choice import Choice
 from mocapbench.benchmark.filling.choosing.kinds import Kind
 from mocapbench.benchmark.filling.choosing.ranking import Ranking
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
+from mocapbench.benchmark.filling.gap_cautions import FEW_VISIBLE
 from mocapbench.benchmark.filling.gaps import count_entries, find_gaps, mask_ends, mask_gaps
 from mocapbench.benchmark.filling.jumps import find_jumps
 from mocapbench.benchmark.filling.requests.names import name_hidden_markers, name_markers
@@ -23,8 +24,6 @@ _NAMED = 4
 """Models, channels or markers that a remark names at most."""
 SLOW = 0.5
 """Seconds between frames from which on times are probably not in seconds."""
-_FEW = 10
-"""Visible frames of a channel below which nothing can be learnt from it."""
 
 
 def describe_fill(filled: FilledRecording) -> str:
@@ -241,7 +240,7 @@ def _warn_of_few_visible(filled: FilledRecording) -> Iterator[str]:
     filling = target.any(axis=0)
     counts = given.visible[:, filling].sum(axis=0)
     least = int(counts.min())
-    if least < _FEW and not filled.request.train:
+    if least < FEW_VISIBLE and not filled.request.train:
         channel = np.array(given.channels)[filling][counts.argmin()]
         are = "is" if least == 1 else "are"
         yield (

@@ -20,7 +20,13 @@ import pandas as pd
 
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.benchmark.filling.choosing.hold_outs import HeldOutGap
-from mocapbench.metrics.statistics import ALPHA, holm_tests_of_means, too_few, unit_means
+from mocapbench.metrics.statistics import (
+    ALPHA,
+    UnitMeans,
+    holm_tests_of_means,
+    too_few,
+    unit_means,
+)
 
 __all__ = ["Ranking", "number_positions", "rank"]
 
@@ -40,6 +46,8 @@ class Ranking:
         The models; the first is the choice.
     means : mapping of str to float
         The weighted mean error of each.
+    intervals : mapping of str to (float, float)
+        The 95 % interval of each mean, by Student's t; NaN where positions are too few.
     errors : mapping of str to ndarray of shape (n,)
         The error of each in each held-out gap.
     n_gaps, n_positions : int
@@ -54,6 +62,7 @@ class Ranking:
 
     order: tuple[str, ...]
     means: Mapping[str, float]
+    intervals: Mapping[str, tuple[float, float]]
     errors: Mapping[str, Array]
     n_gaps: int
     n_positions: int
@@ -97,16 +106,25 @@ def rank(errors: Mapping[str, Array], weights: Array, positions: Index) -> Ranki
     by_position = losses[list(order)].groupby(positions)
     shares = by_position.size().to_numpy(float) / len(losses)
     found = by_position.mean()
-    tested = not too_few(unit_means(found.to_numpy(float).T, shares).freedom).any()
+    by_model = unit_means(found.to_numpy(float).T, shares)
+    tested = not too_few(by_model.freedom).any()
     return Ranking(
         order,
         {model: float(means[model]) for model in order},
+        dict(zip(order, _bound_means(by_model), strict=True)),
         errors,
         len(losses),
         len(shares),
         tested,
         _find_models_alike(found, shares) if tested else order[:1],
     )
+
+
+def _bound_means(means: UnitMeans) -> list[tuple[float, float]]:
+    """Return the 95 % interval of each of some mean errors, which are not below 0."""
+    half = means.drop_errors_of_few_units().half_widths(ALPHA)
+    low, high = np.maximum(means.mean - half, 0.0), means.mean + half
+    return [*zip(low.tolist(), high.tolist(), strict=True)]
 
 
 def _find_models_alike(losses: pd.DataFrame, shares: Array) -> tuple[str, ...]:

@@ -1,51 +1,58 @@
-"""Which channels of a recording the user names."""
+"""Which channels of a recording the user names: by names, or by patterns as those of a shell."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
+from fnmatch import fnmatchcase
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.requests.names import name_owners
+from mocapbench.benchmark.filling.requests.refusals import explain_no_channel
 from mocapbench.datasets import Recording
 from mocapbench.datasets.formats.strays import find_unmeasured
 
-__all__ = ["match_channels"]
+__all__ = ["match_channels", "match_pattern"]
 
 
 def match_channels(
-    recording: Recording, pattern: str | None, results: Collection[str]
+    recording: Recording, patterns: Sequence[str], results: Collection[str]
 ) -> NDArray[np.bool_]:
-    """Return which channels (D,) a regular expression matches.
+    """Return which channels (D,) any of some patterns match.
 
     Without one, they are all that are of labelled markers, not results of a model of the body.
 
     Raises
     ------
     UsageError
-        If it is not a regular expression, or matches no channel.
+        If a pattern matches no channel.
     """
-    if pattern is None:
+    if not patterns:
         others = find_unmeasured(recording.channels, results)
         return np.array([name not in others for name in recording.channels], dtype=bool)
-    matches = np.array([_matches(pattern, name) for name in recording.channels], dtype=bool)
-    if not matches.any():
-        some = ", ".join(recording.channels[:5])
-        raise UsageError(
-            f"{recording.name}: expected --channels to match a channel, got {pattern!r}; "
-            f"its {len(recording.channels)} channels begin with {some}; "
-            "the pattern must match a whole name, such as 'lfemur.*'"
-        )
-    return matches
+    matches = [match_pattern(recording.channels, pattern) for pattern in patterns]
+    for pattern, of_one in zip(patterns, matches, strict=True):
+        if not of_one.any():
+            said = explain_no_channel(recording.channels, pattern)
+            raise UsageError(f"{recording.name}: --channels: {said}")
+    return np.any(matches, axis=0)
 
 
-def _matches(pattern: str, name: str) -> bool:
-    try:
-        return re.fullmatch(pattern, name) is not None
-    except re.error as error:
-        raise UsageError(
-            f"--channels: expected a regular expression, got {pattern!r} ({error}); "
-            "write such as 'lfemur.*'"
-        ) from error
+def match_pattern(channels: Sequence[str], pattern: str) -> NDArray[np.bool_]:
+    """Return which channels (D,) match a pattern themselves, or by their marker or joint.
+
+    Examples
+    --------
+    >>> from mocapbench.benchmark.filling.requests.channels import match_pattern
+    >>> channels = ["C7.x", "C7.y", "C7.z", "hip.rx", "hip.ry"]
+    >>> match_pattern(channels, "C7").tolist()
+    [True, True, True, False, False]
+    >>> match_pattern(channels, "*.ry").tolist()
+    [False, False, False, False, True]
+    """
+    pairs = zip(channels, name_owners(channels), strict=True)
+    return np.array(
+        [any(fnmatchcase(name, pattern) for name in pair) for pair in pairs], dtype=bool
+    )

@@ -2,34 +2,56 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Sequence
 
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError, first_of
 from mocapbench.benchmark.filling.gaps import Gap, count_entries
-from mocapbench.benchmark.filling.requests.names import name_hidden_markers, name_markers
+from mocapbench.benchmark.filling.requests.names import (
+    name_hidden_markers,
+    name_markers,
+    name_owners,
+)
 from mocapbench.benchmark.missing_values import undecided_values
 from mocapbench.datasets import Recording
 
 __all__ = [
     "NothingToFillError",
+    "explain_no_channel",
     "explain_no_gap",
     "explain_nothing_known",
     "explain_only_ends",
 ]
 
 _NAMED = 3
+_MOST_KNOWN = 12
 
 
 class NothingToFillError(UsageError):
     """A recording that needs no filling; others may need it."""
 
 
+def explain_no_channel(channels: Sequence[str], pattern: str) -> str:
+    """Return that a pattern matches no channel, and names that are near to it."""
+    names = [*dict.fromkeys((*name_owners(channels), *channels))]
+    near = difflib.get_close_matches(pattern, names, n=3)
+    known = first_of(list(dict.fromkeys(name_owners(channels))), _MOST_KNOWN)
+    advice = f"did you mean {' or '.join(near)}?" if near else f"there are {known}."
+    return (
+        f"expected the name of a marker, joint or channel, got {pattern!r}: {advice} "
+        "In a pattern, * stands for any characters and ? for any one"
+    )
+
+
 def explain_no_gap(
-    recording: Recording, pattern: str | None, unlabelled: Sequence[str], outputs: Sequence[str]
+    recording: Recording,
+    patterns: Sequence[str],
+    unlabelled: Sequence[str],
+    outputs: Sequence[str],
 ) -> str:
-    """Return that nothing is hidden in the channels of a pattern, or in those of markers."""
-    if (unlabelled or outputs) and pattern is None:
+    """Return that nothing is hidden in the channels of patterns, or in those of markers."""
+    if (unlabelled or outputs) and not patterns:
         strays, results = (len(name_markers(names)) for names in (unlabelled, outputs))
         counts = [
             format_count(strays, "unlabelled marker") if strays else "",
@@ -39,9 +61,9 @@ def explain_no_gap(
         return (
             f"{recording.name}: expected a gap in a labelled marker, got hidden entries of "
             f"{' and '.join(filter(None, counts))} only ({first_of(names, _NAMED)}); "
-            "--channels '.*' fills all channels"
+            "--channels '*' fills all channels"
         )
-    which = "entries" if pattern is None else f"entries of {pattern!r}"
+    which = f"entries of {', '.join(patterns)}" if patterns else "entries"
     hints = (
         f"{recording.name}: expected a gap, got all {which} visible; name what to fill with "
         "--frames, such as 120:180",

@@ -25,7 +25,7 @@ from mocapbench.benchmark.filling.requests.refusals import (
 from mocapbench.datasets import Mask, Recording, unwrap_angles
 from mocapbench.datasets.formats.strays import is_unlabelled
 
-__all__ = ["BEST", "FillRequest", "NamedEntries", "select"]
+__all__ = ["BEST", "FillRequest", "NamedEntries", "measure_gap", "select"]
 
 BEST = "best"
 """In place of a model's name: the one with the least error in held-out gaps of its kind."""
@@ -39,9 +39,10 @@ class NamedEntries:
     ----------
     frames : tuple of int or None
         Frames [first, stop), 0-based, which are filled whether the file has values there or not.
-    channels : str or None
-        A regular expression that matches the whole name of a channel. Without one, all channels
-        but those of unlabelled markers and of results of a model of the body are meant.
+    channels : tuple of str
+        Names of markers, joints or channels, or patterns as those of a shell, see `match_pattern`.
+        Without any, all channels but those of unlabelled markers and of results of a model of the
+        body are meant.
     max_gap : float or None
         Seconds; longer gaps stay open.
     fill_ends : bool
@@ -52,7 +53,7 @@ class NamedEntries:
     """
 
     frames: tuple[int, int] | None = None
-    channels: str | None = None
+    channels: tuple[str, ...] = ()
     max_gap: float | None = None
     fill_ends: bool = False
     model: str = BEST
@@ -116,7 +117,7 @@ class FillRequest:
         It is without unlabelled markers and results of a model of the body of which nothing is to
         be filled, and without frames at the ends in which nothing else is visible.
         """
-        wanted = match_channels(self.given, None, self.results) | self.target.any(axis=0)
+        wanted = match_channels(self.given, (), self.results) | self.target.any(axis=0)
         problem = GapProblem(self.given, self.target, self.train)
         return cut_blank_ends(select_channels(problem, wanted))
 
@@ -182,9 +183,9 @@ def select(
 def _find_longer_gaps(recording: Recording, named: Mask, max_gap: float | None) -> tuple[Gap, ...]:
     """Return the gaps that are longer than allowed, which are not all."""
     gaps, limit = find_gaps(named), np.inf if max_gap is None else max_gap
-    longer = tuple(gap for gap in gaps if not _measure_gap(recording, gap) <= limit)
+    longer = tuple(gap for gap in gaps if not measure_gap(recording, gap) <= limit)
     if len(longer) == len(gaps):
-        shortest = min(_measure_gap(recording, gap) for gap in gaps)
+        shortest = min(measure_gap(recording, gap) for gap in gaps)
         raise NothingToFillError(
             f"{recording.name}: expected a gap of {limit:g} s or less, got "
             f"{len(gaps)} of {shortest:.3g} s or more; raise --max-gap"
@@ -207,7 +208,7 @@ def _mark_unfilled_ends(
     """
     if entries.frames is not None:
         return np.zeros_like(asked), np.zeros_like(asked)
-    patterns = (None, entries.channels)
+    patterns = ((), entries.channels)
     counted = np.any([match_channels(recording, one, results) for one in patterns], axis=0)
     anything = np.asarray(recording.visible[:, counted].any(axis=1))
     blank = asked & mask_ends(anything[:, np.newaxis])
@@ -228,7 +229,7 @@ def _mark_frames(recording: Recording, frames: tuple[int, int]) -> Mask:
     return rows
 
 
-def _measure_gap(recording: Recording, gap: Gap) -> float:
+def measure_gap(recording: Recording, gap: Gap) -> float:
     """Return how long a gap is: its frames times the mean distance of frames within and beside."""
     first, last = max(gap.start - 1, 0), min(gap.stop, len(recording.times) - 1)
     span = float(recording.times[last] - recording.times[first])

@@ -1,0 +1,143 @@
+"""The table of all filled gaps: where each is, what filled it, and what makes it doubtful."""
+
+from __future__ import annotations
+
+import shlex
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from glob import escape
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from mocapbench.benchmark.filling.choosing.choice import Choice
+from mocapbench.benchmark.filling.choosing.kinds import Kind
+from mocapbench.benchmark.filling.filled_recording import FilledRecording
+from mocapbench.benchmark.filling.gap_cautions import GapCautions
+from mocapbench.benchmark.filling.gaps import Gap, count_entries, find_gaps
+from mocapbench.benchmark.filling.jumps import measure_edges
+from mocapbench.benchmark.filling.requests.channels import match_pattern
+from mocapbench.benchmark.filling.requests.names import name_owners
+from mocapbench.benchmark.filling.requests.request import FillRequest, measure_gap
+
+__all__ = ["sort_by_caution", "tabulate_gaps"]
+
+_COLUMNS = (
+    *("marker", "unit", "first", "last", "seconds", "kind", "model"),
+    *("error", "low", "high", "jump", "caution", "leave"),
+)
+_BETWEEN = "; "
+"""What stands between cautions of one gap."""
+
+
+class _Row(NamedTuple):
+    """A gap of one marker or joint, in channels of one unit, that one model filled."""
+
+    gap: Gap
+    kind: Kind
+    model: str
+
+
+def tabulate_gaps(filled: FilledRecording) -> pd.DataFrame:
+    """Return a row for each marker or joint and unit of each filled gap, by their first frame.
+
+    Every filled entry is in exactly one row: a gap that several models filled has one for each.
+
+    Returns
+    -------
+    DataFrame
+        ``marker`` or joint, or channels where only some of those of its unit were filled;
+        ``unit``; ``first`` and ``last`` filled frame (0-based); ``seconds``; ``kind`` of gap;
+        ``model``; its ``error``, the mean over held-out gaps of this kind of the root mean squared
+        error, and the bounds ``low`` and ``high`` of the 95 % interval (Student's t over
+        independent positions), all empty where none was held out, and the bounds also where
+        positions are too few; ``jump``, the largest step at an edge relative to the largest between
+        visible frames of the channel; ``caution``, what makes it doubtful; and ``leave``, the
+        option that leaves it open.
+    """
+    given, rows = filled.request.given, [*_find_rows(filled)]
+    edges = _group_edges(rows, measure_edges(filled.recording, filled.request.target), filled)
+    cautions = GapCautions(filled)
+    table = [
+        (
+            _name_gap(given.channels, given.units, row.gap),
+            row.kind.unit,
+            row.gap.start,
+            row.gap.stop - 1,
+            measure_gap(given, row.gap),
+            str(row.kind),
+            row.model,
+            *_expect_error(filled.choice, row.kind, row.model),
+            of_row["relative"].max(),
+            _BETWEEN.join(cautions.list_of(row.gap, row.kind, of_row[of_row["jumps"]])),
+            _compose_option(filled.request, row.gap),
+        )
+        for row, of_row in zip(rows, edges, strict=True)
+    ]
+    return pd.DataFrame(table, columns=_COLUMNS)
+
+
+def sort_by_caution(table: pd.DataFrame) -> pd.DataFrame:
+    """Return a table of gaps, those with most cautions first, and of these the longest."""
+    n_cautions = table["caution"].str.count(_BETWEEN) + (table["caution"] != "")
+    order = np.lexsort((table["first"], -table["seconds"], -n_cautions))
+    return table.iloc[order].reset_index(drop=True)
+
+
+def _find_rows(filled: FilledRecording) -> list[_Row]:
+    """Return the rows by their first frame, and by the order of channels."""
+    owners = name_owners(filled.request.given.channels)
+    rows = []
+    for number, model in {*zip(filled.kinds.tolist(), filled.models.tolist(), strict=True)}:
+        mask = np.zeros(filled.request.target.shape, dtype=bool)
+        mask[filled.request.target] = (filled.kinds == number) & (filled.models == model)
+        for gap in find_gaps(mask):
+            of_owner: dict[str, list[int]] = defaultdict(list)
+            for channel in gap.channels:
+                of_owner[owners[channel]].append(channel)
+            for channels in of_owner.values():
+                alone = Gap(gap.start, gap.stop, tuple(channels))
+                rows.append(_Row(alone, filled.all_kinds[number], model))
+    return sorted(rows, key=lambda row: (row.gap.start, row.gap.channels))
+
+
+def _group_edges(
+    rows: Sequence[_Row], edges: pd.DataFrame, filled: FilledRecording
+) -> Iterator[pd.DataFrame]:
+    """Yield the edges of each row."""
+    numbers = np.full(filled.request.target.shape, -1)
+    for number, row in enumerate(rows):
+        numbers[row.gap.start : row.gap.stop, list(row.gap.channels)] = number
+    of_rows = dict(iter(edges.groupby(numbers[edges["frame"], edges["channel"]])))
+    return (of_rows.get(number, edges[:0]) for number in range(len(rows)))
+
+
+def _name_gap(channels: Sequence[str], units: Sequence[str], gap: Gap) -> str:
+    """Return the marker or joint of a gap, or its channels where others of it have its unit."""
+    owners = name_owners(channels)
+    owner, unit = owners[gap.channels[0]], units[gap.channels[0]]
+    alike = [k for k, one in enumerate(owners) if one == owner and units[k] == unit]
+    if alike == [*gap.channels]:
+        return owner
+    return ", ".join(channels[channel] for channel in gap.channels)
+
+
+def _expect_error(choice: Choice | None, kind: Kind, model: str) -> tuple[float, float, float]:
+    """Return the mean error of a model in held-out gaps of a kind and its bounds, NaN if none."""
+    ranking = choice.rankings.get(kind) if choice else None
+    if ranking is None or model not in ranking.means:
+        return np.nan, np.nan, np.nan
+    return ranking.means[model], *ranking.intervals[model]
+
+
+def _compose_option(request: FillRequest, gap: Gap) -> str:
+    """Return the option that leaves a gap open: by its marker if that leaves nothing else."""
+    channels = request.given.channels
+    owner = escape(name_owners(channels)[gap.channels[0]])
+    same = match_pattern(channels, owner) & request.target[gap.start : gap.stop]
+    alone = int(same.sum()) == count_entries([gap])
+    names = [owner] if alone else [escape(channels[channel]) for channel in gap.channels]
+    # A comma separates rules.
+    rules = [f"{name.replace(',', '?')}:{gap.start}-{gap.stop - 1}" for name in names]
+    return f"--leave {shlex.quote(','.join(rules))}"
