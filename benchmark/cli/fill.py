@@ -39,7 +39,11 @@ def fill(
         list[Path] | None, typer.Option(help="A recording to learn from besides; may be repeated.")
     ] = None,
     model: Annotated[
-        str, typer.Option(help="A model, or best: the one that errs least in held-out gaps.")
+        str,
+        typer.Option(
+            help="A model, or best: the one that errs least in held-out gaps. Or rules, of which "
+            "the first counts: 'LKNE=linear,R*:0-99=makima,*=best'."
+        ),
     ] = "best",
     frames: Annotated[
         str | None, typer.Option(help="Fill frames A:B (0-based, without B), not the gaps.")
@@ -47,6 +51,13 @@ def fill(
     channels: Annotated[
         list[str] | None,
         typer.Option(help="Fill only these markers, joints or channels: 'LKNE,R*'."),
+    ] = None,
+    leave: Annotated[
+        list[str] | None,
+        typer.Option(help="Leave these gaps open: a marker, perhaps with frames: LKNE:412-455."),
+    ] = None,
+    only: Annotated[
+        list[str] | None, typer.Option(help="Leave all but these gaps open: 'R*,LKNE:412-455'.")
     ] = None,
     out: Annotated[
         Path, typer.Option(help="The folder to write to; nothing in it is overwritten.")
@@ -94,7 +105,13 @@ def fill(
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
     entries = filling.NamedEntries(
-        _parse_frames(frames), _split_names(channels), max_gap, ends == "fill", model
+        _parse_frames(frames),
+        _split_names(channels),
+        max_gap,
+        ends == "fill",
+        model,
+        _split_names(leave),
+        _split_names(only),
     )
     reading = filling.Reading(
         rate, min_likelihood, insert_missing, bench.choose_missing_rule(missing)

@@ -21,7 +21,7 @@ from mocapbench.benchmark.filling.fill_attempt import FillAttempt
 from mocapbench.benchmark.filling.gap_problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.filling.requests.request import BEST, FillRequest
 from mocapbench.benchmark.filling.workers import Workers
-from mocapbench.datasets import Recording
+from mocapbench.datasets import Mask, Recording
 
 __all__ = ["FilledRecording", "fill", "require_fillable"]
 
@@ -33,6 +33,7 @@ class FilledRecording:
     Parameters
     ----------
     request : FillRequest
+        Without entries that stay open by the user's hand.
     prediction : PredictedEntries
         Of the entries that were to be filled, in the order of ``np.nonzero(request.target)``.
     models : ndarray of str of shape (M,)
@@ -102,23 +103,25 @@ def fill(
         If a named model cannot fill these gaps, or fails to.
     """
     problem, order = arrange(request.problem)
-    named = arrange_entries(request.models, problem, order)
-    for name in sorted({*named.tolist()} - {BEST}):
+    named, kept = (arrange_entries(each, problem, order) for each in (request.models, request.kept))
+    for name in sorted({*named[kept].tolist()} - {BEST}):
         require_candidate(name, problem)
-    choice = choose(problem, workers, effort, watch) if BEST in named else None
+    # What stays open by the user's hand is a part of the problem, so that it changes nothing else.
+    choice = choose(problem, workers, effort, watch) if BEST in named[kept] else None
     all_kinds, kinds = _number_kinds(problem)
-    plan = list(_plan_models(named, [all_kinds[k] for k in kinds.tolist()], choice))
+    plan = list(_plan_models(named, kept, [all_kinds[k] for k in kinds.tolist()], choice))
     work = choice.work if choice else np.inf
     attempts = _attempt_in_turn(problem, [each for _, each in plan], workers, work)
-    models = np.empty(named.shape, object)
+    models = np.full(named.shape, "", object)
     for entries, candidates in plan:
         models[entries] = _find_first(candidates, attempts)
     mean, variance = _take_predictions(models, attempts)
     mean, variance, models, kinds = (
-        restore_entries(each, problem, order) for each in (mean, variance, models, kinds)
+        restore_entries(each, problem, order)[request.kept]
+        for each in (mean, variance, models, kinds)
     )
     return FilledRecording(
-        request,
+        request.drop_left(),
         PredictedEntries(mean, None if np.isnan(variance).all() else variance),
         models.astype(str),
         kinds,
@@ -139,9 +142,10 @@ def require_fillable(request: FillRequest, seed: int) -> None:
         The message says what to do.
     """
     problem, _ = arrange(request.problem)
-    for name in sorted({*request.models.tolist()} - {BEST}):
+    models = {*request.models[request.kept].tolist()}
+    for name in sorted(models - {BEST}):
         require_candidate(name, problem)
-    if BEST in request.models:
+    if BEST in models:
         require_room(problem, seed)
 
 
@@ -157,12 +161,12 @@ def _number_kinds(problem: GapProblem) -> tuple[tuple[Kind, ...], Index]:
 
 
 def _plan_models(
-    named: NDArray[np.str_], kinds: Sequence[Kind], choice: Choice | None
+    named: NDArray[np.str_], kept: Mask, kinds: Sequence[Kind], choice: Choice | None
 ) -> Iterator[tuple[Index, tuple[str, ...]]]:
-    """Yield entries that are filled alike, with the models that may fill them, the best first."""
+    """Yield kept entries that are filled alike, with the models that may fill them in order."""
     groups: dict[tuple[Kind, str], list[int]] = defaultdict(list)
-    for entry, key in enumerate(zip(kinds, named.tolist(), strict=True)):
-        groups[key].append(entry)
+    for entry in np.flatnonzero(kept).tolist():
+        groups[kinds[entry], str(named[entry])].append(entry)
     for (kind, name), entries in groups.items():
         if choice is not None and name == BEST:
             yield np.array(entries), choice.find_ranking(kind).order

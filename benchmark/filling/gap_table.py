@@ -17,8 +17,7 @@ from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gap_cautions import GapCautions
 from mocapbench.benchmark.filling.gaps import Gap, count_entries, find_gaps
 from mocapbench.benchmark.filling.jumps import measure_edges
-from mocapbench.benchmark.filling.requests.channels import match_pattern
-from mocapbench.benchmark.filling.requests.names import name_owners
+from mocapbench.benchmark.filling.requests.names import match_pattern, name_owners
 from mocapbench.benchmark.filling.requests.request import FillRequest, measure_gap
 
 __all__ = ["sort_by_caution", "tabulate_gaps"]
@@ -109,8 +108,8 @@ def _group_edges(
     numbers = np.full(filled.request.target.shape, -1)
     for number, row in enumerate(rows):
         numbers[row.gap.start : row.gap.stop, list(row.gap.channels)] = number
-    of_rows = dict(iter(edges.groupby(numbers[edges["frame"], edges["channel"]])))
-    return (of_rows.get(number, edges[:0]) for number in range(len(rows)))
+    of_edges = numbers[edges["frame"], edges["channel"]]
+    return (edges[of_edges == number] for number in range(len(rows)))
 
 
 def _name_gap(channels: Sequence[str], units: Sequence[str], gap: Gap) -> str:

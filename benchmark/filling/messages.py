@@ -165,6 +165,10 @@ def _remark_on_hidden(request: FillRequest) -> Iterator[str]:
     if request.left_open:
         were = format_count(len(request.left_open), "longer gap was", "longer gaps were")
         yield f"{were} left open."
+    if request.left_by_hand:
+        were = format_count(len(request.left_by_hand), "gap was", "gaps were")
+        names = name_hidden_markers(request.given.channels, request.left_by_hand)
+        yield f"{were} left open by --leave or --only: {join_names(names, _NAMED)}."
     if request.unlabelled:
         yield _describe_unlabelled(name_markers(request.unlabelled))
     if request.outputs:
@@ -173,8 +177,9 @@ def _remark_on_hidden(request: FillRequest) -> Iterator[str]:
         yield _describe_unknown(name_markers(request.unknown))
     told = [*request.unlabelled, *request.outputs, *request.unknown]
     others = ~np.isin(request.given.channels, told)
-    ends = mask_gaps((*request.open_ends, *request.blank_ends), request.target.shape)
-    rest = int((~request.given.visible & ~request.target & ~ends)[:, others].sum())
+    told_gaps = (*request.open_ends, *request.blank_ends, *request.left_by_hand)
+    told_entries = mask_gaps(told_gaps, request.target.shape)
+    rest = int((~request.given.visible & ~request.target & ~told_entries)[:, others].sum())
     if rest:
         stay = format_count(rest, "hidden entry stays", "hidden entries stay")
         yield f"{stay} hidden, since {'it was' if rest == 1 else 'they were'} not to be filled."

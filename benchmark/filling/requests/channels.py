@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from fnmatch import fnmatchcase
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.requests.names import name_owners
+from mocapbench.benchmark.filling.requests.names import match_pattern
 from mocapbench.benchmark.filling.requests.refusals import explain_no_channel
 from mocapbench.datasets import Recording
 from mocapbench.datasets.formats.strays import find_unmeasured
 
-__all__ = ["match_channels", "match_pattern"]
+__all__ = ["match_channels"]
 
 
 def match_channels(
@@ -37,22 +36,4 @@ def match_channels(
         if not of_one.any():
             said = explain_no_channel(recording.channels, pattern)
             raise UsageError(f"{recording.name}: --channels: {said}")
-    return np.any(matches, axis=0)
-
-
-def match_pattern(channels: Sequence[str], pattern: str) -> NDArray[np.bool_]:
-    """Return which channels (D,) match a pattern themselves, or by their marker or joint.
-
-    Examples
-    --------
-    >>> from mocapbench.benchmark.filling.requests.channels import match_pattern
-    >>> channels = ["C7.x", "C7.y", "C7.z", "hip.rx", "hip.ry"]
-    >>> match_pattern(channels, "C7").tolist()
-    [True, True, True, False, False]
-    >>> match_pattern(channels, "*.ry").tolist()
-    [False, False, False, False, True]
-    """
-    pairs = zip(channels, name_owners(channels), strict=True)
-    return np.array(
-        [any(fnmatchcase(name, pattern) for name in pair) for pair in pairs], dtype=bool
-    )
+    return np.asarray(np.any(matches, axis=0))

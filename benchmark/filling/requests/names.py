@@ -1,14 +1,18 @@
-"""What messages call channels: markers by their names."""
+"""What channels are called: by the names of markers and joints, or by patterns."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from fnmatch import fnmatchcase
 from functools import lru_cache
+
+import numpy as np
 
 from mocapbench.baselines.common.markers import markers_of
 from mocapbench.benchmark.filling.gaps import Gap
+from mocapbench.datasets import Mask
 
-__all__ = ["name_hidden_markers", "name_markers", "name_owners"]
+__all__ = ["match_pattern", "name_hidden_markers", "name_markers", "name_owners"]
 
 
 def name_markers(channels: Sequence[str]) -> tuple[str, ...]:
@@ -41,6 +45,24 @@ def _find_owners(channels: tuple[str, ...]) -> tuple[str, ...]:
     names = _find_markers(channels)
     stems = (name.rpartition(".")[0] or name for name in channels)
     return tuple(names.get(k, stem) for k, stem in enumerate(stems))
+
+
+def match_pattern(channels: Sequence[str], pattern: str) -> Mask:
+    """Return which channels (D,) match a pattern themselves, or by their marker or joint.
+
+    Examples
+    --------
+    >>> from mocapbench.benchmark.filling.requests.names import match_pattern
+    >>> channels = ["C7.x", "C7.y", "C7.z", "hip.rx", "hip.ry"]
+    >>> match_pattern(channels, "C7").tolist()
+    [True, True, True, False, False]
+    >>> match_pattern(channels, "*.ry").tolist()
+    [False, False, False, False, True]
+    """
+    pairs = zip(channels, name_owners(channels), strict=True)
+    return np.array(
+        [any(fnmatchcase(name, pattern) for name in pair) for pair in pairs], dtype=bool
+    )
 
 
 def _find_markers(channels: Sequence[str]) -> dict[int, str]:

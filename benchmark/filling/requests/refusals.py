@@ -4,28 +4,35 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Sequence
+from operator import itemgetter
+
+import numpy as np
 
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError, first_of
-from mocapbench.benchmark.filling.gaps import Gap, count_entries
+from mocapbench.benchmark.filling.gaps import Gap, count_entries, find_gaps
 from mocapbench.benchmark.filling.requests.names import (
+    match_pattern,
     name_hidden_markers,
     name_markers,
     name_owners,
 )
 from mocapbench.benchmark.missing_values import undecided_values
-from mocapbench.datasets import Recording
+from mocapbench.datasets import Mask, Recording
 
 __all__ = [
     "NothingToFillError",
+    "explain_all_left",
     "explain_no_channel",
     "explain_no_gap",
+    "explain_no_named_gap",
     "explain_nothing_known",
     "explain_only_ends",
 ]
 
 _NAMED = 3
 _MOST_KNOWN = 12
+_PATTERNS = "In a pattern, * stands for any characters and ? for any one, such as a comma"
 
 
 class NothingToFillError(UsageError):
@@ -34,14 +41,40 @@ class NothingToFillError(UsageError):
 
 def explain_no_channel(channels: Sequence[str], pattern: str) -> str:
     """Return that a pattern matches no channel, and names that are near to it."""
-    names = [*dict.fromkeys((*name_owners(channels), *channels))]
-    near = difflib.get_close_matches(pattern, names, n=3)
-    known = first_of(list(dict.fromkeys(name_owners(channels))), _MOST_KNOWN)
+    near = _find_near(channels, pattern)
+    known = first_of([*dict.fromkeys(name_owners(channels))], _MOST_KNOWN)
     advice = f"did you mean {' or '.join(near)}?" if near else f"there are {known}."
+    return f"expected the name of a marker, joint or channel, got {pattern!r}: {advice} {_PATTERNS}"
+
+
+def explain_no_named_gap(channels: Sequence[str], target: Mask, pattern: str, text: str) -> str:
+    """Return that a rule names nothing that is to be filled, with markers near and their gaps."""
+    owners = name_owners(channels)
+    matched = {owners[k] for k in np.flatnonzero(match_pattern(channels, pattern))}
+    near = matched or {*_find_near(channels, pattern)}
+    advice = f": did you mean {' or '.join(sorted(near))}?" if near - matched else "."
+    gaps = [
+        (owner not in near, f"{owner}:{gap.start}-{gap.stop - 1}")
+        for gap in find_gaps(target)
+        for owner in dict.fromkeys(owners[channel] for channel in gap.channels)
+    ]
+    nearest = [gap for _, gap in sorted(gaps, key=itemgetter(0))]
     return (
-        f"expected the name of a marker, joint or channel, got {pattern!r}: {advice} "
-        "In a pattern, * stands for any characters and ? for any one"
+        f"expected a gap to fill, got {text!r}, which names none{advice} "
+        f"Gaps to fill are {first_of(nearest, _MOST_KNOWN)}. {_PATTERNS}"
     )
+
+
+def explain_all_left(recording: Recording) -> str:
+    """Return that the user leaves all gaps open."""
+    return f"{recording.name}: expected a gap to fill, got all left open by --leave or --only"
+
+
+def _find_near(channels: Sequence[str], pattern: str) -> list[str]:
+    """Return markers and joints, or else channels, near to a pattern in spelling."""
+    owners = dict.fromkeys(name_owners(channels))
+    near = difflib.get_close_matches(pattern, owners, n=_NAMED)
+    return near or difflib.get_close_matches(pattern, channels, n=_NAMED)
 
 
 def explain_no_gap(

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,17 +19,16 @@ from mocapbench.benchmark.filling.gaps import Gap, find_gaps, mask_ends, mask_ga
 from mocapbench.benchmark.filling.requests.channels import match_channels
 from mocapbench.benchmark.filling.requests.refusals import (
     NothingToFillError,
+    explain_all_left,
     explain_no_gap,
     explain_nothing_known,
     explain_only_ends,
 )
+from mocapbench.benchmark.filling.requests.rules import BEST, assign_models, mark_left
 from mocapbench.datasets import Mask, Recording, unwrap_angles
 from mocapbench.datasets.formats.strays import is_unlabelled
 
 __all__ = ["BEST", "FillRequest", "NamedEntries", "measure_gap", "select"]
-
-BEST = "best"
-"""In place of a model's name: the one with the least error in held-out gaps of its kind."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,9 @@ class NamedEntries:
         Whether hidden entries before the first visible one of their channel and after the last are
         filled, too, where anything is visible.
     model : str
-        Which model fills them, or `BEST`.
+        Which model fills them, or `BEST`, or rules of which fills what, see `assign_models`.
+    leave, only : tuple of str
+        Rules of which gaps stay open, and of which alone do not, see `mark_left`.
     """
 
     frames: tuple[int, int] | None = None
@@ -57,6 +59,8 @@ class NamedEntries:
     max_gap: float | None = None
     fill_ends: bool = False
     model: str = BEST
+    leave: tuple[str, ...] = ()
+    only: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +84,7 @@ class FillRequest:
     unknown : tuple of str
         Channels that were asked for, and of which there is nothing to fill them from.
     replaced : int
-        How many of the entries to fill had a value.
+        How many of the entries that are filled had a value.
     outputs : tuple of str
         Channels of results of a model of the body that have hidden entries, and that nobody named.
     results : tuple of str
@@ -90,6 +94,8 @@ class FillRequest:
         asked for.
     blank_ends : tuple of Gap
         What is hidden in frames before or after those in which anything is visible.
+    left_by_hand : tuple of Gap
+        Gaps of ``target`` that models fill like others, as if they were wanted, and that stay open.
     """
 
     given: Recording
@@ -104,6 +110,17 @@ class FillRequest:
     results: tuple[str, ...] = ()
     open_ends: tuple[Gap, ...] = ()
     blank_ends: tuple[Gap, ...] = ()
+    left_by_hand: tuple[Gap, ...] = ()
+
+    @property
+    def kept(self) -> NDArray[np.bool_]:
+        """Which entries to fill (M,) do not stay open by the user's hand."""
+        return np.asarray(~mask_gaps(self.left_by_hand, self.target.shape)[self.target])
+
+    def drop_left(self) -> Self:
+        """Return the request without entries to fill that stay open by the user's hand."""
+        kept = self.target & ~mask_gaps(self.left_by_hand, self.target.shape)
+        return replace(self, target=kept, models=self.models[self.kept])
 
     @property
     def gaps(self) -> tuple[Gap, ...]:
@@ -163,12 +180,15 @@ def select(
         raise UsageError(explain_nothing_known(recording, unknown))
     left_open = _find_longer_gaps(recording, named, entries.max_gap)
     target = named & ~mask_gaps(left_open, named.shape)
-    replaced = int((target & recording.visible).sum())
+    left_by_hand = mark_left(recording, target, entries.leave, entries.only)
+    if left_by_hand[target].all():
+        raise NothingToFillError(explain_all_left(recording))
+    replaced = int((target & ~left_by_hand & recording.visible).sum())
     open_too = recording.hide(named)
     return FillRequest(
         unwrap_angles(open_too),
         target,
-        np.full(int(target.sum()), entries.model),
+        assign_models(recording, target, entries.model),
         tuple(train),
         left_open,
         unlabelled,
@@ -177,6 +197,7 @@ def select(
         outputs,
         tuple(results),
         *ends,
+        find_gaps(left_by_hand),
     )
 
 

@@ -50,7 +50,7 @@ def test_channels_are_named_in_the_encoding_of_the_terminal(cli, tmp_path):
     path = tmp_path / "walk.trc"
     write_trc(path, with_gap(markers(60)))
     path.write_bytes(path.read_bytes().replace(b"root", b"Fu\xdf_"))
-    words = ("--model", "linear", "--out", tmp_path / "out", "--channels", "Fuß.*", path)
+    words = ("--model", "linear", "--out", tmp_path / "out", "--channels", "Fuß*", path)
     assert cli("fill", *words) == 0, cli.printed
     table = pd.read_csv(tmp_path / "out" / "walk.trc.entries.csv")
     assert {*table["channel"]} == {"Fuß_.x", "Fuß_.y", "Fuß_.z"}

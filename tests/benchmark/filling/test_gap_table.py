@@ -17,7 +17,7 @@ from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gap_problem import PredictedEntries
 from mocapbench.benchmark.filling.gap_table import sort_by_caution, tabulate_gaps
 from mocapbench.benchmark.filling.jumps import find_jumps
-from mocapbench.benchmark.filling.requests.channels import match_pattern
+from mocapbench.benchmark.filling.requests.names import match_pattern
 from mocapbench.benchmark.filling.requests.request import NamedEntries, select
 from mocapbench.datasets import Recording
 
