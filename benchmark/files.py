@@ -11,6 +11,7 @@ from mocapbench.benchmark.errors import UsageError
 
 __all__ = [
     "ENTRIES",
+    "GAPS",
     "is_writable",
     "require_short_names",
     "require_writable_folder",
@@ -19,6 +20,8 @@ __all__ = [
 
 ENTRIES = ".entries.csv"
 """How the name of a table of filled entries ends, which `mocapbench fill` writes beside a file."""
+GAPS = ".gaps.csv"
+"""How the name of its table of gaps ends."""
 
 
 def is_writable(folder: Path) -> bool:

@@ -11,9 +11,12 @@ from shlex import join
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
+from rich.padding import Padding
+from rich.table import Column, Table
 
 from mocapbench import benchmark as bench
 from mocapbench import datasets, reports
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark import filling
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.failures import explain
@@ -29,6 +32,9 @@ app = typer.Typer(add_completion=False)
 
 _PLAIN_INTERVAL = 5.0
 """Seconds between lines of progress."""
+_MOST_GAPS, _FIRST_GAPS = 12, 10
+"""Up to how many gaps are all printed, and how many of more."""
+_PRINTED = ["gap", "frames", "filled by", "expected error"]
 _FRAMES = re.compile(r"(\d{1,9}):(\d{1,9})")
 
 
@@ -198,8 +204,25 @@ def _print_result(
     )
     for text in sentences:
         console.print(f"{input_file.path.name}: {text}", soft_wrap=True, highlight=False)
+    _print_gaps(filled, outputs, console)
     for path in outputs:
         console.print(f"  {path}", soft_wrap=True, highlight=False)
+
+
+def _print_gaps(filled: FilledRecording, outputs: OutputPaths, console: LiteralConsole) -> None:
+    """Print all gaps if they are few, or else those with most cautions."""
+    table = filling.sort_by_caution(filling.tabulate_gaps(filled))
+    n_shown = len(table) if len(table) <= _MOST_GAPS else _FIRST_GAPS
+    shown = filling.describe_gaps(table[:n_shown])[[*_PRINTED, "caution"]]
+    columns = [Column(name, no_wrap=True) for name in _PRINTED]
+    grid = Table(*columns, "caution", box=None, pad_edge=False, header_style="")
+    for row in shown.itertuples(index=False):
+        grid.add_row(*row)
+    console.print(Padding.indent(grid, 2), highlight=False)
+    if len(table) > n_shown:
+        more = format_count(len(table) - n_shown, "more gap is", "more gaps are")
+        console.print(f"  {more} in {outputs[2]}", soft_wrap=True, highlight=False)
+    console.print(f"  {filling.describe_options(filled, table)}", soft_wrap=True, highlight=False)
 
 
 def _parse_frames(frames: str | None) -> tuple[int, int] | None:

@@ -18,14 +18,16 @@ from mocapbench.benchmark.filling.gap_cautions import GapCautions
 from mocapbench.benchmark.filling.gaps import Gap, count_entries, find_gaps
 from mocapbench.benchmark.filling.jumps import measure_edges
 from mocapbench.benchmark.filling.requests.names import match_pattern, name_owners
-from mocapbench.benchmark.filling.requests.request import FillRequest, measure_gap
+from mocapbench.benchmark.filling.requests.request import BEST, FillRequest, measure_gap
 
-__all__ = ["sort_by_caution", "tabulate_gaps"]
+__all__ = ["describe_gaps", "describe_options", "sort_by_caution", "tabulate_gaps"]
 
 _COLUMNS = (
     *("marker", "unit", "first", "last", "seconds", "kind", "model"),
     *("error", "low", "high", "jump", "caution", "leave"),
 )
+_PLAIN = "linear", "makima"
+"""Models that fill any gap, of which one is named as another."""
 _BETWEEN = "; "
 """What stands between cautions of one gap."""
 
@@ -82,6 +84,45 @@ def sort_by_caution(table: pd.DataFrame) -> pd.DataFrame:
     n_cautions = table["caution"].str.count(_BETWEEN) + (table["caution"] != "")
     order = np.lexsort((table["first"], -table["seconds"], -n_cautions))
     return table.iloc[order].reset_index(drop=True)
+
+
+def describe_gaps(table: pd.DataFrame) -> pd.DataFrame:
+    """Return what people read of a table of gaps, as text: a row a gap, in the same order."""
+    return pd.DataFrame(
+        {
+            "gap": table["marker"],
+            "frames": [f"{row.first}-{row.last}" for row in table.itertuples()],
+            "seconds": table["seconds"].map("{:.3g}".format),
+            "filled by": table["model"],
+            "expected error": [*map(_describe_error, *(table[name] for name in _OF_ERROR))],
+            "jump": table["jump"].map("{:.2g}".format, na_action="ignore").fillna("–"),
+            "caution": table["caution"],
+            "leave it open by": table["leave"],
+        }
+    )
+
+
+_OF_ERROR = "error", "low", "high", "unit"
+
+
+def _describe_error(error: float, low: float, high: float, unit: str) -> str:
+    if np.isnan(error):
+        return "–"
+    bounds = "" if np.isnan(low) else f" ({low:.2g} to {high:.2g})"
+    return f"{error:.2g}{bounds} {unit}".rstrip()
+
+
+def describe_options(filled: FilledRecording, table: pd.DataFrame) -> str:
+    """Return how the first gap of a table is left open, or filled otherwise."""
+    model, option = table["model"].iloc[0], table["leave"].iloc[0]
+    other = next(name for name in _PLAIN if name != model)
+    (_, rules), rest = shlex.split(option), BEST if filled.choice else filled.used[0]
+    named = ",".join(f"{rule}={other}" for rule in rules.split(","))
+    return (
+        f"To leave a gap open, fill the file again with its option, such as {option}; to fill it "
+        f"by another model, with --model {shlex.quote(f'{named},*={rest}')}. Other gaps stay as "
+        "they are."
+    )
 
 
 def _find_rows(filled: FilledRecording) -> list[_Row]:

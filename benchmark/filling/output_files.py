@@ -1,4 +1,4 @@
-"""What is written for a filled file: its copy, a table of the filled entries, and a page."""
+"""What is written for a filled file: its copy, tables of filled entries and gaps, and a page."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ import pandas as pd
 
 from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import ENTRIES, require_short_names, require_writable_folder
+from mocapbench.benchmark.files import ENTRIES, GAPS, require_short_names, require_writable_folder
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
+from mocapbench.benchmark.filling.gap_table import tabulate_gaps
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.datasets import FrameByChannel
 from mocapbench.reports import csv_text
@@ -25,8 +26,8 @@ __all__ = [
     "write",
 ]
 
-OutputPaths = tuple[Path, Path, Path]
-"""The files that are written for one file: its copy, the table, and the page.
+OutputPaths = tuple[Path, Path, Path, Path]
+"""The files that are written for one file: its copy, the tables of entries and gaps, and the page.
 
 All are new: neither a file that was read nor an earlier output is overwritten.
 """
@@ -43,8 +44,7 @@ def name_output_files(files: Sequence[Path], folder: Path) -> list[OutputPaths]:
     if folder.exists() and not folder.is_dir():
         raise UsageError(f"--out: expected a folder, got the file {folder}; name another")
     require_writable_folder("--out", folder)
-    names = [(file.name, f"{file.name}{ENTRIES}", f"{file.name}.html") for file in files]
-    outputs = [(folder / copy, folder / table, folder / page) for copy, table, page in names]
+    outputs = [_name_outputs_of(file, folder) for file in files]
     paths = [path for of_one_file in outputs for path in of_one_file]
     if len(set(paths)) < len(paths):
         raise UsageError(
@@ -52,6 +52,11 @@ def name_output_files(files: Sequence[Path], folder: Path) -> list[OutputPaths]:
             "fill them one by one, each with its own --out"
         )
     return outputs
+
+
+def _name_outputs_of(file: Path, folder: Path) -> OutputPaths:
+    tables = folder / f"{file.name}{ENTRIES}", folder / f"{file.name}{GAPS}"
+    return folder / file.name, *tables, folder / f"{file.name}.html"
 
 
 def require_writable(source: InputFile, outputs: OutputPaths) -> None:
@@ -103,13 +108,14 @@ def write(input_file: InputFile, filled: FilledRecording, outputs: OutputPaths, 
     OSError
         If a file cannot be written.
     """
-    copy_path, table_path, page_path = outputs
+    copy_path, entries_path, gaps_path, page_path = outputs
     copy_path.parent.mkdir(parents=True, exist_ok=True)
     try:
         input_file.format.write(
             copy_path, filled.recording, like=input_file.path, replaced=filled.request.target
         )
-        write_text(table_path, csv_text(tabulate_entries(filled)))
+        write_text(entries_path, csv_text(tabulate_entries(filled)))
+        write_text(gaps_path, csv_text(tabulate_gaps(filled)))
         write_text(page_path, page)
     except BaseException:
         for path in outputs:

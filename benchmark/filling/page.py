@@ -12,6 +12,12 @@ from mocapbench.benchmark.figures.stick_figures import strip
 from mocapbench.benchmark.filling.choosing.choice import Choice
 from mocapbench.benchmark.filling.choosing.kinds import Kind
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
+from mocapbench.benchmark.filling.gap_table import (
+    describe_gaps,
+    describe_options,
+    sort_by_caution,
+    tabulate_gaps,
+)
 from mocapbench.benchmark.filling.gaps import Gap, find_gaps
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.benchmark.filling.jumps import find_jumps
@@ -39,7 +45,7 @@ def compose_page(input_file: InputFile, filled: FilledRecording, command: str) -
     gaps, recording = filled.request.gaps, filled.recording
     jumps = find_jumps(recording, filled.request.target)
     shown = list(_choose_gaps(recording, gaps, jumps))
-    choice = filled.choice
+    choice, table = filled.choice, sort_by_caution(tabulate_gaps(filled))
     return FilledPage(
         file=input_file.path.name,
         headline=describe_fill(filled),
@@ -47,6 +53,8 @@ def compose_page(input_file: InputFile, filled: FilledRecording, command: str) -
         remarks=(*list_remarks(filled), *input_file.remarks),
         curves=tuple(_cut_curves(filled, recording, shown)),
         caption=_describe_gaps(gaps, shown),
+        gaps=describe_gaps(table),
+        options=describe_options(filled, table),
         motion=_draw_motion(input_file, filled, recording, max(gaps, key=len)),
         rankings=_tabulate_rankings(filled, choice) if choice else {},
         left_out=tuple(_list_left_out(choice)) if choice else (),

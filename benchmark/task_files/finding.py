@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from mocapbench.benchmark.errors import first_of
-from mocapbench.benchmark.files import ENTRIES
+from mocapbench.benchmark.files import ENTRIES, GAPS
 from mocapbench.benchmark.registry import FORMATS
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.settings import NONE, OTHERS, Settings
@@ -75,4 +75,4 @@ def _files(pattern: str, folder: Path) -> list[str]:
 
 def _is_recording(path: Path) -> bool:
     """Return whether a path is a file, and not what `mocapbench fill` has written beside one."""
-    return path.is_file() and not path.name.endswith(ENTRIES)
+    return path.is_file() and not path.name.endswith((ENTRIES, GAPS))

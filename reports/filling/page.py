@@ -38,6 +38,10 @@ class FilledPage:
     curves : tuple of FilledCurve
     caption : str
         Which gaps the curves show.
+    gaps : DataFrame
+        All gaps, a row each, as text.
+    options : str
+        How to leave a gap open, or to fill it otherwise.
     motion : Axes or None
         Stick figures.
     rankings : mapping of str to DataFrame
@@ -55,6 +59,8 @@ class FilledPage:
     remarks: tuple[str, ...]
     curves: tuple[FilledCurve, ...]
     caption: str
+    gaps: pd.DataFrame
+    options: str
     motion: Axes | None
     rankings: Mapping[str, pd.DataFrame]
     left_out: tuple[tuple[str, str], ...]
