@@ -662,7 +662,8 @@ def test_a_file_that_is_open_at_its_ends_only_is_left_out_with_the_option(cli, w
     assert not out.exists()
     assert cli("fill", ends, walk, "--model", "linear", "--out", out) == 0
     assert "left out: " in cli.printed
-    assert sorted(path.name for path in out.glob("*.csv")) == ["walk.csv", "walk.csv.entries.csv"]
+    names = ["walk.csv", "walk.csv.entries.csv", "walk.csv.gaps.csv"]
+    assert sorted(path.name for path in out.glob("*.csv")) == names
     assert cli("fill", ends, "--ends", "fill", "--effort", "low", "--out", out) == 0
     assert CSVFormat().read(out / "ends.csv").visible.all()
 

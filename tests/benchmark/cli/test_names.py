@@ -20,7 +20,7 @@ def test_a_file_of_any_name_is_filled(cli, tmp_path, name):
     write_c3d(tmp_path / "plain.c3d", with_gap(markers(60)))
     (tmp_path / "plain.c3d").rename(tmp_path / name)
     assert fill(cli, tmp_path / "out", tmp_path / name) == 0, cli.printed
-    names = {name, f"{name}.entries.csv", f"{name}.html"}
+    names = {name, f"{name}.entries.csv", f"{name}.gaps.csv", f"{name}.html"}
     assert {path.name for path in (tmp_path / "out").iterdir()} == names
     assert "filled</title>" in (tmp_path / "out" / f"{name}.html").read_text(encoding="utf-8")
 
@@ -33,7 +33,7 @@ def test_every_format_has_files_of_any_name(cli, tmp_path, name):
     path = made.with_stem("T\udceate")
     words = ("--model", "linear", "--out", tmp_path / "out", "--frames", "20:30", path)
     assert cli("fill", *words) == 0, cli.printed
-    assert len(list((tmp_path / "out").iterdir())) == 3
+    assert len(list((tmp_path / "out").iterdir())) == 4
 
 
 def test_a_name_too_long_to_write_is_refused_before_anything_is_filled(cli, tmp_path):

@@ -295,8 +295,11 @@ def test_of_groups_of_one_size_the_first_task_file_takes_the_first(cli, tmp_path
 def test_tables_of_filled_entries_are_no_recordings(cli, own, task_file, tmp_path):
     folder = walks(tmp_path / "folder")
     (folder / "walk 01.csv.entries.csv").write_text("frame,time,channel,unit,mean,sd\n")
+    (folder / "walk 01.csv.gaps.csv").write_text("marker,unit,first,last\n")
     assert cli("init", tmp_path / "first.toml", "--recordings", folder) == 0
-    assert "entries.csv" not in cli.printed + (tmp_path / "first.toml").read_text()
+    said = cli.printed + (tmp_path / "first.toml").read_text()
+    assert "entries.csv" not in said
+    assert "csv.gaps.csv" not in said
     assert own(task_file(WAYS["whole-frames"], models='["linear"]'), folder=folder) == 0
 
 

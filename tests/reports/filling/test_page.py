@@ -13,6 +13,9 @@ def ranked(*errors):
     return pd.DataFrame({"model": ["linear", "hold"], "error, deg": errors, "": notes})
 
 
+GAP = ("knee", "8-11", "0.4", "linear", "1.2 (0.9 to 1.6) deg", "1.3", "jumps", "--leave knee:8-11")
+
+
 @pytest.fixture
 def page():
     times = np.arange(20) / 10
@@ -28,6 +31,8 @@ def page():
         remarks=("1 longer gap was left open.",),
         curves=(curve,),
         caption="The only gap.",
+        gaps=pd.DataFrame([GAP], columns=[f"column {n}" for n in range(8)]),
+        options="To leave a gap open, fill the file again with its option.",
         motion=None,
         rankings={"longer, deg: 9 held-out gaps": ranked(1.25, 13.5), "up to 1 s": ranked(4, 5)},
         left_out=(("mohgp", "took longer than 2 s"),),
@@ -39,6 +44,7 @@ def test_the_page_says_all_that_it_is_given(page):
     text = render_filled(page)
     said = [page.headline, *page.verdict, *page.remarks, page.command, "knee.rx", *page.rankings]
     said += ["1.25", "13.50", "error, deg", "fitted to windows", "mohgp", "took longer than 2 s"]
+    said += [*GAP, *page.gaps.columns, page.options, "1 gap of markers or joints"]
     assert [words for words in said if words not in text] == []
 
 
@@ -53,7 +59,8 @@ def test_the_page_loads_nothing_and_runs_nothing(page):
 def test_names_are_no_markup(page):
     hostile = "<b onclick=x>\x1b[31m"
     curve = replace(page.curves[0], channel=hostile)
-    text = render_filled(replace(page, file=hostile, curves=(curve,), command=hostile))
+    gaps = pd.DataFrame([[hostile] * 8])
+    text = render_filled(replace(page, file=hostile, curves=(curve,), command=hostile, gaps=gaps))
     assert "<b onclick" not in text
     assert "\x1b" not in text
 
