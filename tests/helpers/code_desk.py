@@ -1,13 +1,14 @@
 """The small files on which the commands of the documentation are tried.
 
-Recordings are generated gait. `walk` and `jump` have gaps, `other` has none, and the folder `walks`
-holds three people's, for the task file `my.toml`. `cmu` is a database of one walk. The plug-ins
-are those of docs/compare.md. `results` is a finished run, `reference` has its metrics, and other
-runs are copies of it.
+Recordings are generated gait. `walk` and `jump` have gaps (as C3D, one of two in lfemur), `other`
+has none, and the folder `walks` holds three people's, for the task file `my.toml`. `cmu` is a
+database of one walk. The plug-ins are those of docs/compare.md. `results` is a finished run,
+`reference` has its metrics, and other runs are copies of it.
 """
 
 import shutil
 
+import numpy as np
 from code_attempts import ROOT
 from code_blocks import code_blocks, written
 from code_shell import Shell
@@ -26,7 +27,7 @@ def lay_out(folder, monkeypatch):
         sample(name, folder)
     write_csv(folder / "other.csv", walk())
     for name in ("walk.c3d", "jump.c3d"):
-        write_c3d(folder / name, with_gap(markers(300)))
+        write_c3d(folder / name, _with_two_gaps())
     for number, name in enumerate(("anna", "ben", "cleo")):
         write_waves(folder / "walks" / f"{name}.csv", n_frames=400 + number, channels=CHANNELS)
     _write_database(folder / "cmu" / "subjects" / "01")
@@ -39,6 +40,14 @@ def lay_out(folder, monkeypatch):
     shell.run("mocapbench check results --reference reference --update")
     for copy in COPIES:
         shutil.copytree("results", copy)
+
+
+def _with_two_gaps():
+    """Return markers with a gap in the root, and one in frames 40 to 49 of the left femur."""
+    recording = with_gap(markers(300))
+    hidden = np.zeros(recording.values.shape, dtype=bool)
+    hidden[40:50, 6:9] = True
+    return recording.hide(hidden)
 
 
 def _write_database(folder):
