@@ -10,7 +10,8 @@ part in a wrapper that calibrates them.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cached_property
 from importlib.metadata import EntryPoint
 from typing import Any, Generic, TypeVar, cast
@@ -72,6 +73,15 @@ class Registry(Generic[T]):
     def add(self, name: str, value: T) -> None:
         """Register ``value`` under ``name``, in place of what had that name."""
         self._added[name] = value
+
+    @contextmanager
+    def lend(self, name: str, value: T) -> Iterator[None]:
+        """Register ``value`` within the context alone, under a name that nothing else has."""
+        self.add(name, value)
+        try:
+            yield
+        finally:
+            del self._added[name]
 
     def names_of_others(self) -> tuple[str, ...]:
         """Return the names that other packages or files of the user's register, sorted."""

@@ -44,15 +44,15 @@ def require_candidate(name: str, problem: GapProblem) -> None:
     UsageError
         The message names the models that can.
     """
-    model, candidates = build_unfitted(name), find_candidates(problem)
-    if name in candidates:
+    model, ability = build_unfitted(name), _find_ability(problem)
+    unmet = model.needs - find_met_needs(pose_imputing(problem))
+    if ability in model.provides and not unmet:
         return
     texts = {"fills frames": "gaps", "fills entries": "frames of which some channels are visible"}
-    unmet = describe_needs(model.needs - find_met_needs(pose_imputing(problem)))
     raise UsageError(
-        f"--model: expected a model that fills {texts[_find_ability(problem)]}, got {name!r}"
-        f"{', which needs ' if unmet else ''}{' and '.join(unmet)}; "
-        f"choose {', '.join(candidates)}"
+        f"--model: expected a model that fills {texts[ability]}, got {name!r}"
+        f"{', which needs ' if unmet else ''}{' and '.join(describe_needs(unmet))}; "
+        f"choose {', '.join(find_candidates(problem))}"
     )
 
 

@@ -32,7 +32,7 @@ from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.runs.fitting.solve import build_model
 from mocapbench.datasets import FrameByChannel
 
-__all__ = ["FillAttempt", "attempt_fill", "keep_constants"]
+__all__ = ["FillAttempt", "attempt_fill", "fill_problem", "keep_constants"]
 
 _ENOUGH = 10
 """Frames; fewer that are equal are so by chance in files of rounded numbers, unless most are."""
@@ -88,17 +88,31 @@ def attempt_fill(
     """
     resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
     try:
-        with warnings.catch_warnings(action="ignore"):
-            build = partial(build_model, model, {}, seed, calibration)
-            unfitted: Any = build()
-            windows = cut_windows(problem, unfitted.max_frames)
-            parts = [(frames, part, _predict(build, part, method)) for frames, part in windows]
-            prediction = keep_constants(problem, _merge_windows(problem, parts))
+        return fill_problem(partial(build_model, model, {}, seed, calibration), problem, method)
     except MemoryError:
         needed = f"needed more than {memory / 2**30:.1f} GiB of memory"
         return FillAttempt(None, needed, stopped=True)
     except BaseException as error:  # a model that calls sys.exit has failed like any other
         return FillAttempt(None, reason(error) + _locate_error(error, model))
+
+
+def fill_problem(
+    build: Callable[[], Any], problem: GapProblem, method: str = "impute"
+) -> FillAttempt:
+    """Return what a model predicts, in windows if the recording is too long for it.
+
+    Parameters
+    ----------
+    build : callable
+        Returns the model, not fitted.
+    problem : GapProblem
+    method : str, default="impute"
+        As for `attempt_fill`.
+    """
+    with warnings.catch_warnings(action="ignore"):
+        windows = cut_windows(problem, build().max_frames)
+        parts = [(frames, part, _predict(build, part, method)) for frames, part in windows]
+    prediction = keep_constants(problem, _merge_windows(problem, parts))
     whole = windows[0][0] == slice(0, len(problem.given.times))
     return FillAttempt(prediction, n_windows=0 if whole else len(windows))
 
@@ -112,7 +126,7 @@ def _locate_error(error: BaseException, model: type[FrameImputer]) -> str:
     return f" ({path.name}, line {lines[-1]})" if lines else ""
 
 
-def _predict(build: Callable[[], Model], problem: GapProblem, method: str) -> Prediction:
+def _predict(build: Callable[[], Any], problem: GapProblem, method: str) -> Prediction:
     """Return what the model predicts of all channels (N, D), NaN of those that nobody has seen."""
     seen = drop_unseen(problem)
     imputing = pose_imputing(seen)

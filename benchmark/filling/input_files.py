@@ -15,7 +15,7 @@ from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntr
 from mocapbench.datasets import Format, FormatError, Recording, check_alike
 from mocapbench.datasets.formats.strays import find_unmeasured
 
-__all__ = ["InputFile", "read_input_files"]
+__all__ = ["InputFile", "compose_request", "read_input_files"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,14 +96,38 @@ def _read_input_file(
     file, (recording, remarks) = reading.format_of(path), reading.read(path)
     results = file.results(path, recording.channels)
     train = {other: told for other, told in others.items() if other != path.resolve()}
-    alike = tuple(_match_channels(one, recording, results) for one, _ in train.values())
-    check_alike([recording, *alike])
     of_train = (f"{other.name}: {text}" for other, (_, said) in train.items() for text in said)
     try:
-        request = select(recording, entries, alike, results)
+        request = compose_request(recording, entries, [one for one, _ in train.values()], results)
     except NothingToFillError as error:
         raise NothingToFillError(f"{error}{reading.suggest_likelihoods(path)}") from None
     return InputFile(path, file, request, (*remarks, *of_train))
+
+
+def compose_request(
+    recording: Recording, entries: NamedEntries, others: Sequence[Recording], results: Sequence[str]
+) -> FillRequest:
+    """Return the request of filling a recording, for which models learn from others besides.
+
+    Parameters
+    ----------
+    recording : Recording
+    entries : NamedEntries
+    others : sequence of Recording
+        With the channels of the recording, in any order.
+    results : sequence of str
+        Channels of results of a model of the body.
+
+    Raises
+    ------
+    FormatError
+        If another recording has other channels, units or frames per second.
+    UsageError
+        If nothing is to be filled, or what is named is not there.
+    """
+    alike = tuple(_match_channels(one, recording, results) for one in others)
+    check_alike([recording, *alike])
+    return select(recording, entries, alike, results)
 
 
 def _match_channels(other: Recording, recording: Recording, results: Sequence[str]) -> Recording:

@@ -1,0 +1,1 @@
+"""Filling and comparing in memory: what ``import mocapbench`` offers to a notebook."""

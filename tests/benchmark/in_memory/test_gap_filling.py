@@ -1,0 +1,174 @@
+"""Filling in memory gives what the command writes, to the bit, and says what cannot be done."""
+
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+from sklearn.impute import KNNImputer, SimpleImputer
+
+import mocapbench
+from mocapbench.baselines import KNN, Imputer, LinearImputer, Prediction
+
+
+class Constant(Imputer):
+    """A model of a user's own."""
+
+    def __init__(self, value=0.0):
+        self.value = value
+
+    def fit(self, recordings):
+        self.fitted_ = len(recordings)
+        return self
+
+    def impute(self, recordings):
+        return [Prediction.around(one, self.value, 4.0) for one in recordings]
+
+
+class Broken(Constant):
+    def fit(self, recordings):
+        raise KeyError("no such thing")
+
+
+@pytest.fixture
+def file(gappy, tmp_path):
+    """Return the recording with gaps as a file."""
+    path = tmp_path / "walk.csv"
+    labels = [f"{channel} [mm]" for channel in gappy.channels]
+    table = pd.DataFrame(gappy.values, columns=labels)
+    table.insert(0, "time", gappy.times)
+    table.to_csv(path, index=False)
+    return path
+
+
+def fill_by_command(file, *options):
+    command = [sys.executable, "-m", "mocapbench.benchmark.cli.main", "fill", str(file), *options]
+    done = subprocess.run(
+        [*command, "--out", str(file.parent / "out")], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    table = file.parent / "out" / f"{file.name}.entries.csv"
+    return pd.read_csv(table, float_precision="round_trip")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("model", ["cubic-spline", "marker-kriging", "lds"])
+def test_a_named_model_gives_what_the_command_writes_to_the_bit(file, model):
+    entries = fill_by_command(file, "--model", model)
+    filled = mocapbench.fill(mocapbench.read(file), model)
+    np.testing.assert_array_equal(filled.recording.values[filled.mask], entries["mean"])
+    np.testing.assert_array_equal(filled.std[filled.mask], entries["sd"])
+
+
+@pytest.mark.slow
+def test_the_choice_is_that_of_the_command_to_the_bit(file):
+    entries = fill_by_command(file, "--effort", "low")
+    filled = mocapbench.fill(file, effort="low")
+    assert filled.result.models.tolist() == entries["model"].tolist()
+    np.testing.assert_array_equal(filled.recording.values[filled.mask], entries["mean"])
+    assert {*filled.ranking.loc[filled.ranking.chosen, "model"]} == {*entries["model"]}
+
+
+def test_a_named_model_starts_no_process(gappy, monkeypatch):
+    def refuse(*_, **__):
+        raise AssertionError("a process was to be started")
+
+    monkeypatch.setattr("mocapbench.benchmark.in_memory.gap_filling.Workers", refuse)
+    monkeypatch.setattr("os.fork", refuse)
+    monkeypatch.setattr("subprocess.Popen", refuse)
+    assert mocapbench.fill(gappy, "linear").recording.visible.all()
+
+
+def test_it_is_the_model_that_fills(gappy):
+    filled = mocapbench.fill(gappy, "linear")
+    (prediction,) = LinearImputer().fit([gappy]).impute([gappy])
+    np.testing.assert_array_equal(filled.recording.values, prediction.mean)
+
+
+def test_all_that_can_be_read_is_filled_alike(gappy):
+    table = pd.DataFrame(gappy.values, gappy.times, gappy.channels)
+    by_table = mocapbench.fill(table, "linear")
+    by_array = mocapbench.fill(gappy.values, "linear", rate=60, names=gappy.channels)
+    np.testing.assert_array_equal(by_table.recording.values, by_array.recording.values)
+
+
+def test_a_model_of_ones_own_fills_with_its_parameters(gappy):
+    filled = mocapbench.fill(gappy, Constant(7.0))
+    assert (filled.recording.values[filled.mask] == 7.0).all()
+    assert (filled.std[filled.mask] == 2.0).all()
+    assert filled.result.used == ("Constant",)
+
+
+def test_a_model_of_ones_own_is_registered_while_it_fills_alone(gappy):
+    mocapbench.fill(gappy, Constant(7.0))
+    with pytest.raises(ValueError, match="unknown model 'Constant'"):
+        mocapbench.fill(gappy, "Constant")
+    model = Constant(7.0)
+    mocapbench.fill(gappy, model)
+    assert not hasattr(model, "fitted_")
+
+
+def test_an_imputer_of_scikit_learn_fills_frames(gappy):
+    filled = mocapbench.fill(gappy, KNNImputer(n_neighbors=3))
+    expected = KNNImputer(n_neighbors=3).fit_transform(gappy.values)
+    np.testing.assert_allclose(filled.recording.values, expected)
+    assert np.isnan(filled.std[filled.mask]).all()
+
+
+def test_what_a_model_of_ones_own_raises_is_shown(gappy):
+    with pytest.raises(ValueError, match="Broken did not fill it: KeyError") as caught:
+        mocapbench.fill(gappy, Broken())
+    assert isinstance(caught.value.__cause__, KeyError)
+
+
+@pytest.mark.parametrize(
+    ("model", "said"),
+    [
+        (KNN, "got the class KNN; write KNN()"),
+        (3, "expected the name of a model"),
+        ("liner", "did you mean linear"),
+        ("k-means", "expected a model that fills"),
+    ],
+)
+def test_what_is_no_model_is_refused(gappy, model, said):
+    with pytest.raises(ValueError, match=re.escape(said)):
+        mocapbench.fill(gappy, model)
+
+
+def test_recordings_to_learn_from_count(walk):
+    lost = np.zeros((240, 12), dtype=bool)
+    lost[:, :3] = True
+    recording = walk().hide(lost)
+    with pytest.raises(ValueError, match="name files that have these with train="):
+        mocapbench.fill(recording, "linear")
+    others = [walk(name="other", seed=1), recording]
+    filled = mocapbench.fill(recording, SimpleImputer(), train=others)
+    assert filled.recording.visible.all()
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"ends": "shut"}, "expected ends= as one of open, fill, got 'shut'"),
+        ({"effort": "most"}, "expected effort= as one of low, normal, high, got 'most'"),
+        ({"frames": (3, 2)}, "expected frames= within 0:240"),
+        ({"max_gap": 0.01}, "raise max_gap="),
+        ({"rate": 3}, "expected options none for what is read here, got rate"),
+    ],
+)
+def test_options_that_cannot_be_met_are_refused_by_their_names_as_arguments(gappy, options, said):
+    with pytest.raises(ValueError, match=re.escape(said)):
+        mocapbench.fill(gappy, "linear", **options)
+
+
+def test_without_a_gap_there_is_nothing_to_fill(walk):
+    with pytest.raises(ValueError, match="expected a gap, got all entries visible"):
+        mocapbench.fill(walk(), "linear")
+
+
+def test_of_nothing_nothing_is_filled(walk):
+    nothing = walk().with_values(np.full((240, 12), np.nan))
+    with pytest.raises(ValueError, match="expected visible entries to fill the others from"):
+        mocapbench.fill(nothing, "linear")
