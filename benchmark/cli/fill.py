@@ -112,12 +112,12 @@ def fill(
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
     entries = filling.NamedEntries(
         _parse_frames(frames),
-        _split_names(channels),
+        filling.split_names(channels or ()),
         max_gap,
         ends == "fill",
         model,
-        _split_names(leave),
-        _split_names(only),
+        filling.split_names(leave or ()),
+        filling.split_names(only or ()),
     )
     reading = filling.Reading(
         rate, min_likelihood, insert_missing, bench.choose_missing_rule(missing)
@@ -232,12 +232,6 @@ def _parse_frames(frames: str | None) -> tuple[int, int] | None:
     if found is None:
         raise UsageError(f"--frames: expected A:B, such as 120:180, got {frames!r}")
     return int(found[1]), int(found[2])
-
-
-def _split_names(options: list[str] | None) -> tuple[str, ...]:
-    """Return what options list, each with commas between, without empty parts."""
-    parts = (part.strip() for option in options or () for part in option.split(","))
-    return tuple(filter(None, parts))
 
 
 def _quote_command() -> str:

@@ -6,6 +6,7 @@ from .messages import describe_choice, describe_fill, list_remarks
 from .output_files import OutputPaths, name_output_files, require_writable, write
 from .page import compose_page
 from .reading import Reading
+from .requests.names import split_names
 from .requests.refusals import NothingToFillError
 from .requests.request import NamedEntries
 from .workers import Workers
@@ -31,6 +32,7 @@ __all__ = [
     "require_fillable",
     "require_writable",
     "sort_by_caution",
+    "split_names",
     "tabulate_gaps",
     "write",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,6 +16,7 @@ from scipy.special import ndtri
 
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
+from mocapbench.benchmark.filling.gap_table import tabulate_gaps
 from mocapbench.benchmark.filling.messages import describe_choice, describe_fill, list_remarks
 from mocapbench.benchmark.in_memory.arguments import name_arguments
 from mocapbench.benchmark.in_memory.movement import to_movement
@@ -25,6 +27,8 @@ from mocapbench.datasets import FrameByChannel, Mask, Recording
 
 __all__ = ["Filled"]
 
+_SHOWN = 20
+"""Gaps that a notebook shows at most."""
 _RANKING = ("kind", "model", "error", "unit", "chosen", "may_be_chance", "n_gaps")
 
 
@@ -77,6 +81,15 @@ class Filled:
             raise ValueError(f"expected a level between 0 and 1, such as 0.95, got {level}")
         half: Array = ndtri(0.5 + level / 2) * self.std
         return self.recording.values - half, self.recording.values + half
+
+    @cached_property
+    def gaps(self) -> pd.DataFrame:
+        """A row for each gap of a marker or joint: where it is, what filled it, how well.
+
+        What ``leave`` has leaves the gap open, as the argument of that name.
+        """
+        table = tabulate_gaps(self.result)
+        return table.assign(leave=[shlex.split(option)[-1] for option in table["leave"]])
 
     @property
     def ranking(self) -> pd.DataFrame:
@@ -153,4 +166,5 @@ class Filled:
         """Return what Jupyter shows."""
         first, *others = map(escape, self.messages)
         listed = "".join(f"<li>{text}</li>" for text in others)
-        return f"<p><b>{escape(self.given.name)}</b>: {first}</p><ul>{listed}</ul>"
+        table = self.gaps.to_html(index=False, max_rows=_SHOWN, float_format="{:.4g}".format)
+        return f"<p><b>{escape(self.given.name)}</b>: {first}</p><ul>{listed}</ul>{table}"

@@ -9,6 +9,7 @@ from mocapbench.benchmark.filling.choosing.choice import EFFORTS
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.filled_recording import fill as fill_request
 from mocapbench.benchmark.filling.input_files import compose_request
+from mocapbench.benchmark.filling.requests.names import split_names
 from mocapbench.benchmark.filling.requests.request import BEST, FillRequest, NamedEntries
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.benchmark.in_memory.arguments import translate_errors
@@ -28,7 +29,9 @@ def fill(
     *,
     train: Sequence[Any] = (),
     frames: tuple[int, int] | None = None,
-    channels: str | Sequence[str] | None = None,
+    channels: str | Sequence[str] = (),
+    leave: str | Sequence[str] = (),
+    only: str | Sequence[str] = (),
     max_gap: float | None = None,
     ends: str = "open",
     effort: str = "normal",
@@ -43,15 +46,17 @@ def fill(
     recording : Recording, path, DataFrame, ndarray, xarray.Dataset or xarray.DataArray
         What `read` takes.
     model : str or model
-        The name of a model; ``"best"``, which errs least in held-out gaps; or a model of your own:
-        an instance of `mocapbench.baselines.FrameImputer`, or an imputer of scikit-learn. A model
-        that is named computes in this process, and models that are compared in others.
+        The name of a model; ``"best"``, which errs least in held-out gaps; rules such as
+        ``"LKNE=linear,*=best"``; or a model of your own: an instance of
+        `mocapbench.baselines.FrameImputer`, or an imputer of scikit-learn. Models that are named
+        compute in this process, and those that are compared in others.
     train : sequence
         Recordings to learn from besides, of whatever `read` takes.
     frames : tuple of int, optional
         Frames [first, stop), 0-based, which are filled whether they have values or not.
-    channels : str, optional
-        What is filled, as ``--channels`` names it.
+    channels, leave, only : str or sequence of str, optional
+        Which markers, joints or channels are filled, which gaps stay open, and which alone do not,
+        as the options of these names have it: ``"R*"``, ``"LKNE:412-455"``.
     max_gap : float, optional
         Seconds; longer gaps stay open.
     ends : str, default="open"
@@ -88,11 +93,23 @@ def fill(
     others = [read(one, **options) for one in train if one is not recording]
     _require_choice("ends", ends, ("open", "fill"))
     _require_choice("effort", effort, EFFORTS)
-    entries = NamedEntries(frames, channels, max_gap, ends == "fill", name_model(model))
+    entries = NamedEntries(
+        frames,
+        _split_names(channels),
+        max_gap,
+        ends == "fill",
+        name_model(model),
+        _split_names(leave),
+        _split_names(only),
+    )
     with translate_errors():
         request = compose_request(given, entries, others, getattr(given, "results", ()))
         own = {entries.model: model}
         return Filled(given, solve_request(request, own, effort=effort, seed=seed, jobs=jobs))
+
+
+def _split_names(names: str | Sequence[str]) -> tuple[str, ...]:
+    return split_names([names] if isinstance(names, str) else names)
 
 
 def _require_choice(name: str, value: str, known: Sequence[str] | Mapping[str, object]) -> None:
@@ -121,7 +138,7 @@ def solve_request(
     jobs : int or None
         How many models run at once where they are compared.
     """
-    if BEST in request.models:
+    if BEST in request.models[request.kept]:
         n_jobs = jobs or n_cores()
         with Workers(n_jobs, seed=seed) as workers, show_progress("hold-outs") as watch:
             return fill_request(request, workers, effort, watch)

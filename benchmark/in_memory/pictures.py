@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fnmatch import fnmatchcase
 from typing import Any
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.gaps import run_bounds
 from mocapbench.benchmark.errors import UnknownNameError
+from mocapbench.benchmark.filling.requests.names import match_pattern, name_owners
 from mocapbench.benchmark.in_memory.extras import require_extra
 from mocapbench.datasets import FrameByChannel, Mask, Recording
 
@@ -71,11 +71,9 @@ def draw_channels(
 
 def _find_columns(recording: Recording, name: str) -> list[int]:
     """Return the columns of channels that match a pattern, themselves or by what they belong to."""
-    owners = [channel.rpartition(".")[0] or channel for channel in recording.channels]
-    pairs = enumerate(zip(recording.channels, owners, strict=True))
-    columns = [k for k, pair in pairs if any(fnmatchcase(one, name) for one in pair)]
+    columns: list[int] = np.flatnonzero(match_pattern(recording.channels, name)).tolist()
     if not columns:
-        known = [*dict.fromkeys((*owners, *recording.channels))]
+        known = [*dict.fromkeys((*name_owners(recording.channels), *recording.channels))]
         raise UnknownNameError("marker, joint or channel", name, known)
     return columns
 

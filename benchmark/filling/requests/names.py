@@ -12,7 +12,7 @@ from mocapbench.baselines.common.markers import markers_of
 from mocapbench.benchmark.filling.gaps import Gap
 from mocapbench.datasets import Mask
 
-__all__ = ["match_pattern", "name_hidden_markers", "name_markers", "name_owners"]
+__all__ = ["match_pattern", "name_hidden_markers", "name_markers", "name_owners", "split_names"]
 
 
 def name_markers(channels: Sequence[str]) -> tuple[str, ...]:
@@ -69,6 +69,19 @@ def _find_markers(channels: Sequence[str]) -> dict[int, str]:
     """Return the marker of each channel that is one of its three."""
     found = markers_of(channels, [""] * len(channels))
     return {k: marker for marker, channels_of in found.items() for k in channels_of}
+
+
+def split_names(texts: Iterable[str]) -> tuple[str, ...]:
+    """Return the names that texts list, each with commas between, without empty parts.
+
+    Examples
+    --------
+    >>> from mocapbench.benchmark.filling.requests.names import split_names
+    >>> split_names(["LKNE, R*", "C7"])
+    ('LKNE', 'R*', 'C7')
+    """
+    parts = (part.strip() for text in texts for part in text.split(","))
+    return tuple(filter(None, parts))
 
 
 def name_hidden_markers(channels: Sequence[str], gaps: Iterable[Gap]) -> tuple[str, ...]:

@@ -133,3 +133,10 @@ def test_a_notebook_shows_what_was_done(filled):
 def test_without_a_choice_there_is_no_ranking(filled):
     assert filled.ranking.empty
     assert "may_be_chance" in filled.ranking
+
+
+def test_every_gap_has_a_row_whose_rule_leaves_it_open_and_changes_nothing_else(filled, gappy):
+    assert filled.gaps["marker"].tolist() == ["LKNE", "RKNE"]
+    again = mocapbench.fill(gappy, "marker-kriging", leave=filled.gaps["leave"][0])
+    assert not again.recording.visible[50:60, :3].any()
+    np.testing.assert_array_equal(again.recording.values[120:170], filled.recording.values[120:170])

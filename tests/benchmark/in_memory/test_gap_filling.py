@@ -172,3 +172,10 @@ def test_of_nothing_nothing_is_filled(walk):
     nothing = walk().with_values(np.full((240, 12), np.nan))
     with pytest.raises(ValueError, match="expected visible entries to fill the others from"):
         mocapbench.fill(nothing, "linear")
+
+
+def test_rules_say_which_model_fills_what(gappy):
+    filled = mocapbench.fill(gappy, "LKNE=linear,*=makima", channels=["LKNE", "R*"])
+    assert filled.gaps["model"].tolist() == ["linear", "makima"]
+    only = mocapbench.fill(gappy, "linear", only="RKNE")
+    assert only.gaps["marker"].tolist() == ["RKNE"]
