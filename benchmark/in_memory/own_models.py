@@ -12,10 +12,11 @@ from sklearn.base import clone
 from sklearn.exceptions import NotFittedError
 
 from mocapbench.baselines import FrameImputer, Imputer, Inductive, Model, Prediction
+from mocapbench.benchmark.filling.requests.request import BEST
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.datasets import Recording
 
-__all__ = ["ArrayImputer", "ModelLike", "lend_models", "name_model"]
+__all__ = ["ArrayImputer", "ModelLike", "lend_models", "name_model", "require_model"]
 
 ModelLike = str | FrameImputer | Any
 """The name of a registered model, a model, or an imputer of scikit-learn for arrays with NaN."""
@@ -90,6 +91,20 @@ def lend_models(models: Mapping[str, ModelLike]) -> Iterator[Mapping[str, Callab
         for name, build in own.items():
             stack.enter_context(MODELS.lend(name, cast("type[Model]", build)))
         yield own
+
+
+def require_model(model: ModelLike) -> None:
+    """Refuse what is neither the name of a model nor one.
+
+    Raises
+    ------
+    ValueError
+        The message says what is.
+    """
+    if not isinstance(model, str):
+        _wrap_model(model)
+    elif model != BEST:
+        MODELS.get(model)
 
 
 def _wrap_model(model: ModelLike) -> FrameImputer:

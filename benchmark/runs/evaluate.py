@@ -27,7 +27,7 @@ from mocapbench.benchmark.score_values import fault_of_score
 from mocapbench.datasets import Archive
 from mocapbench.metrics import Metric, Score
 
-__all__ = ["evaluate"]
+__all__ = ["evaluate", "score_by"]
 
 Attempt = tuple[Fit | None, Trained | None, Record | None]
 """The predictions, the fitted model where other jobs can use it, or why there are none."""
@@ -151,7 +151,7 @@ def _score_by_each(
     errors: list[Exception] = []
     for name in job.metrics:
         try:
-            scores |= _score_by(METRICS.get(name), outcome)
+            scores |= score_by(METRICS.get(name), outcome)
         except MemoryError:  # for `Job.record_failure`, which says what to do
             raise
         except Exception as error:
@@ -184,8 +184,16 @@ def _keep_scores(scores: Mapping[str, Score]) -> dict[str, Any]:
     }
 
 
-def _score_by(metric: Metric[Any], outcome: object) -> dict[str, Score]:
-    """Return the score by the metric's name, or nothing where the metric is not defined."""
+def score_by(metric: Metric[Any], outcome: object) -> dict[str, Score]:
+    """Return the score by the metric's name, or nothing where the metric is not defined.
+
+    Raises
+    ------
+    RuntimeError
+        If the metric raises something.
+    ValueError
+        If it returns no score, or an infinite one.
+    """
     overflows: list[str] = []
     try:
         if not metric.applies(outcome):

@@ -26,6 +26,7 @@ __all__ = [
     "hide_gaps",
     "hide_same_gaps",
     "hide_spans",
+    "place_gaps",
 ]
 
 _ROUNDING = 0.05
@@ -129,22 +130,54 @@ def hide_gaps(
     group : callable
         Returns the groups of columns of which each gap hides one; see `group_columns`.
     """
-    groups, length = group(recording), gap_length(seconds, recording)
+    length, hidden = gap_length(seconds, recording), np.zeros(recording.values.shape, dtype=bool)
+    for start, columns in place_gaps(recording, place.rng, group(recording), length, count):
+        hidden[start : start + length, list(columns)] = True
+    return hidden
+
+
+def place_gaps(
+    recording: Recording,
+    rng: np.random.Generator,
+    groups: Sequence[Sequence[int]],
+    length: int,
+    count: int,
+) -> list[tuple[int, Sequence[int]]]:
+    """Return gaps at random places, each by its first frame and its columns.
+
+    Parameters
+    ----------
+    recording : Recording
+    rng : numpy.random.Generator
+    groups : sequence of sequence of int
+        Columns, of which each gap hides those of one group.
+    length : int
+        Of each gap, in frames.
+    count : int
+        How many.
+
+    Raises
+    ------
+    HidingError
+        If there is no room for them.
+    """
     free = recording.visible.copy()
-    starts = [free_starts(np.asarray(~free[:, group].all(axis=1)), length) for group in groups]
+    gaps: list[tuple[int, Sequence[int]]] = []
     for _ in range(count):
+        blocked = (np.asarray(~free[:, list(group)].all(axis=1)) for group in groups)
+        starts = [free_starts(frames, length) for frames in blocked]
         with_room = [index for index, found in enumerate(starts) if len(found)]
         if not with_room:
             raise HidingError(
-                f"{count} visible stretches of {seconds:g} s, {length} frames each, "
-                "with a visible frame on either side",
+                f"{count} visible stretches of {length / frame_rate(recording):.3g} s, {length} "
+                "frames each, with a visible frame on either side",
                 f"{len(recording.times)} frames without room for them",
             )
-        drawn = int(place.rng.choice(with_room))
-        start = int(place.rng.choice(starts[drawn]))
-        free[start : start + length, groups[drawn]] = False
-        starts[drawn] = free_starts(np.asarray(~free[:, groups[drawn]].all(axis=1)), length)
-    return recording.visible & ~free
+        drawn = int(rng.choice(with_room))
+        start = int(rng.choice(starts[drawn]))
+        free[start : start + length, list(groups[drawn])] = False
+        gaps.append((start, groups[drawn]))
+    return gaps
 
 
 def gap_length(seconds: float, recording: Recording) -> int:

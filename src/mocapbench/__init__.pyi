@@ -1,17 +1,25 @@
 from . import baselines, basics, benchmark, datasets, metrics, reports
+from .benchmark.in_memory.evaluation import evaluate
 from .benchmark.in_memory.filled import Filled
+from .benchmark.in_memory.gap_filler import GapFiller
 from .benchmark.in_memory.gap_filling import fill
+from .benchmark.in_memory.hidden_gaps import Gaps
 from .benchmark.in_memory.reading import read
+from .benchmark.in_memory.score_comparison import compare
 
 __version__: str
 
 __all__ = [
     "Filled",
+    "GapFiller",
+    "Gaps",
     "__version__",
     "baselines",
     "basics",
     "benchmark",
+    "compare",
     "datasets",
+    "evaluate",
     "fill",
     "metrics",
     "read",

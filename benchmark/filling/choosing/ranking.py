@@ -20,6 +20,7 @@ import pandas as pd
 
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.benchmark.filling.choosing.hold_outs import HeldOutGap
+from mocapbench.benchmark.filling.gaps import Gap
 from mocapbench.metrics.statistics import (
     ALPHA,
     UnitMeans,
@@ -28,7 +29,7 @@ from mocapbench.metrics.statistics import (
     unit_means,
 )
 
-__all__ = ["Ranking", "number_positions", "rank"]
+__all__ = ["Ranking", "number_positions", "rank", "tell_positions"]
 
 _NEAR = 1.5
 """Errors, relative to the least, up to which a model is a rival of the first."""
@@ -139,16 +140,20 @@ def _find_models_alike(losses: pd.DataFrame, shares: Array) -> tuple[str, ...]:
 
 
 def number_positions(gaps: Sequence[HeldOutGap]) -> Index:
-    """Return the position of each held-out gap (n,), numbered along the recording from 0.
+    """Return the position of each held-out gap (n,), see `tell_positions`."""
+    return tell_positions([gap.copy for gap in gaps])
 
-    The first held-out gaps to end at each position share no frames with each other, and there are
-    as many of them as there can be.
+
+def tell_positions(gaps: Sequence[Gap]) -> Index:
+    """Return the position of each gap (n,), numbered along the recording from 0.
+
+    The first gaps to end at each position share no frames with each other, and there are as many of
+    them as there can be.
     """
-    copies = [gap.copy for gap in gaps]
-    positions = np.empty(len(copies), dtype=np.intp)
+    positions = np.empty(len(gaps), dtype=np.intp)
     position, stop = -1, -np.inf
-    for number in sorted(range(len(copies)), key=lambda n: copies[n].stop):
-        if copies[number].start - _BESIDE >= stop:
-            position, stop = position + 1, copies[number].stop + _BESIDE
+    for number in sorted(range(len(gaps)), key=lambda n: gaps[n].stop):
+        if gaps[number].start - _BESIDE >= stop:
+            position, stop = position + 1, gaps[number].stop + _BESIDE
         positions[number] = position
     return positions
