@@ -20,7 +20,7 @@ from mocapbench.benchmark.filling.costs import predict_calibrated_seconds
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt
 from mocapbench.benchmark.filling.gap_problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.filling.requests.request import BEST, FillRequest
-from mocapbench.benchmark.filling.workers import Workers
+from mocapbench.benchmark.filling.workers import FillBackend
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["FilledRecording", "fill", "require_fillable"]
@@ -84,14 +84,14 @@ class FilledRecording:
 
 
 def fill(
-    request: FillRequest, workers: Workers, effort: str, watch: Callable[[int, int], object]
+    request: FillRequest, workers: FillBackend, effort: str, watch: Callable[[int, int], object]
 ) -> FilledRecording:
     """Return a recording, filled.
 
     Parameters
     ----------
     request : FillRequest
-    workers : Workers
+    workers : FillBackend
     effort : str
         How much work the choice among models may take, see `choose`.
     watch : callable
@@ -175,7 +175,7 @@ def _plan_models(
 
 
 def _attempt_in_turn(
-    problem: GapProblem, candidates: Sequence[Sequence[str]], workers: Workers, work: float
+    problem: GapProblem, candidates: Sequence[Sequence[str]], workers: FillBackend, work: float
 ) -> dict[str, FillAttempt]:
     """Have the first of each sequence of candidates fill the problem, or else the next.
 

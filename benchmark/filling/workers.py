@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from functools import lru_cache, partial
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Any, Protocol, Self
 
 from pebble import ProcessExpired
 
@@ -27,13 +27,40 @@ from mocapbench.benchmark.runs.execution.worker import load_plugins_once
 from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 from mocapbench.benchmark.runs.machine import memory_share
 
-__all__ = ["Workers"]
+__all__ = ["FillBackend", "Workers"]
 
 _TIMES, _LEAST_LIMIT = 20.0, 120.0
 """How many times as long as predicted an attempt may take, and how many seconds at least.
 
 So a busy machine takes longer, and computes the same.
 """
+
+
+class FillBackend(Protocol):
+    """Where models fill problems: in `Workers`, or in the process that asks.
+
+    Attributes
+    ----------
+    seed : int
+        Of what models draw at random.
+    """
+
+    seed: int
+
+    def keep(self, problem: GapProblem) -> Any:
+        """Return what stands for a problem in `submit`."""
+
+    def submit(
+        self, model: str, problem: Any, seconds: float, method: str = "impute"
+    ) -> Future[FillAttempt]:
+        """Have a model solve a problem; see `Workers.submit`."""
+
+    def collect(
+        self,
+        futures: Collection[Future[FillAttempt]],
+        watch: Callable[[int, int], object] = ...,
+    ) -> dict[Future[FillAttempt], FillAttempt]:
+        """Return how attempts ended; see `Workers.collect`."""
 
 
 class Workers:

@@ -153,11 +153,11 @@ def _name_recordings(recordings: Sequence[Recording]) -> list[str]:
 def _keep_measured(recording: Recording) -> Recording:
     """Return what models are judged by: what was measured, and is seen in some frame."""
     unmeasured = find_unmeasured(recording.channels, getattr(recording, "results", ()))
-    seen = zip(recording.channels, recording.visible.any(axis=0), strict=True)
+    seen = zip(recording.channels, np.asarray(recording.visible.any(axis=0)), strict=True)
     kept = recording.select([name for name, is_seen in seen if is_seen and name not in unmeasured])
     if not kept.channels:
         raise ValueError(f"{recording.name}: expected a visible channel, got none")
-    blank = mask_ends(kept.visible.any(axis=1)[:, np.newaxis])[:, 0]
+    blank = mask_ends(np.asarray(kept.visible.any(axis=1))[:, np.newaxis])[:, 0]
     return kept.frames(~blank)
 
 

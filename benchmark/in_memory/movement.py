@@ -69,7 +69,7 @@ def read_movement(
 def _find_position(data: Any) -> Any:
     """Return the positions, with their dimensions in order, without that of a single individual."""
     variables = getattr(data, "data_vars", {_POSITION: data})
-    position = variables.get(_POSITION)
+    position: Any = variables.get(_POSITION)
     dims = () if position is None else position.dims
     if {*dims} - {*_DIMENSIONS} or {*_DIMENSIONS[:3]} - {*dims}:
         raise ValueError(

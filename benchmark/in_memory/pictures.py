@@ -64,7 +64,7 @@ def draw_channels(
         if truth is not None:
             values = truth.select([recording.channels[column]]).values
             one.plot(truth.times, values, "--", color="black", lw=1, label="truth")
-    _show_gaps(axes[-1], recording.times, mask[:, columns].any(axis=1))
+    _show_gaps(axes[-1], recording.times, np.asarray(mask[:, columns].any(axis=1)))
     axes[0].legend(loc="upper right")
     return axes
 

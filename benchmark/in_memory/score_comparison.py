@@ -64,7 +64,7 @@ def compare(scores: pd.DataFrame, *, by: str = "gap", rope: float = ROPE) -> pd.
     for metric, own in scores.groupby("metric", sort=False):
         rows = pd.DataFrame(_contrast_pairs(str(metric), own, by, rope))
         if len(rows):
-            rows.insert(rows.columns.get_loc("p") + 1, "p_holm", holm(rows["p"]))
+            rows.insert([*rows].index("p") + 1, "p_holm", holm(rows["p"]))
             verdicts = [*map(_tell_verdict, rows["p"], rows["p_holm"])]
             tables.append(rows.assign(verdict=verdicts))
     if not tables:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -94,16 +95,16 @@ def _check_columns(names: Sequence[str], table: pd.DataFrame) -> None:
         )
 
 
-def _is_number(kind: object) -> bool:
+def _is_number(kind: Any) -> bool:
     real = pd.api.types.is_numeric_dtype(kind) and not pd.api.types.is_complex_dtype(kind)
     return bool(real or pd.api.types.is_timedelta64_dtype(kind))
 
 
-def _convert_column(column: pd.Series[float] | pd.Index[float]) -> Array:
+def _convert_column(column: Any) -> Array:
     """Return numbers; durations in seconds."""
     if pd.api.types.is_timedelta64_dtype(column.dtype):
-        return column.to_numpy("timedelta64[ns]").astype(float) / _NANOSECONDS
-    return column.to_numpy(dtype=float, na_value=np.nan)
+        return np.asarray(column.to_numpy("timedelta64[ns]").astype(float) / _NANOSECONDS)
+    return np.asarray(column.to_numpy(dtype=float, na_value=np.nan), dtype=np.float64)
 
 
 def _find_times(
@@ -111,7 +112,7 @@ def _find_times(
     names: Sequence[str],
     columns: TableColumns,
     numbers: FrameByChannel,
-    index: pd.Index[float],
+    index: Any,
 ) -> FrameTimes:
     """Return what columns or the index say about times."""
     times, frames = (None if k is None else numbers[:, k] for k in (columns.time, columns.frame))

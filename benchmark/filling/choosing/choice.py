@@ -19,7 +19,7 @@ from mocapbench.benchmark.filling.choosing.scores import list_gaps
 from mocapbench.benchmark.filling.costs import predict_calibrated_seconds, predict_seconds
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt
 from mocapbench.benchmark.filling.gap_problem import GapProblem
-from mocapbench.benchmark.filling.workers import Workers
+from mocapbench.benchmark.filling.workers import FillBackend
 from mocapbench.datasets import Mask
 
 __all__ = ["EFFORTS", "Choice", "choose", "require_room"]
@@ -92,14 +92,14 @@ def _measure_unlikeness(other: Kind, kind: Kind) -> tuple[bool, bool, bool, Kind
 
 
 def choose(
-    problem: GapProblem, workers: Workers, effort: str, watch: Callable[[int, int], object]
+    problem: GapProblem, workers: FillBackend, effort: str, watch: Callable[[int, int], object]
 ) -> Choice:
     """Return which model fills each kind of gap of a problem best.
 
     Parameters
     ----------
     problem : GapProblem
-    workers : Workers
+    workers : FillBackend
     effort : str
         One of `EFFORTS`.
     watch : callable
@@ -176,7 +176,7 @@ def _explain_no_room(problem: GapProblem) -> UsageError:
     )
 
 
-def check_intervals(choice: Choice, workers: Workers) -> dict[Kind, Mask]:
+def check_intervals(choice: Choice, workers: FillBackend) -> dict[Kind, Mask]:
     """Return which hidden entries are in the intervals of the first model of each kind.
 
     Of a model of which that would take more work, nothing is checked.

@@ -23,7 +23,7 @@ from mocapbench.benchmark.filling.choosing.scores import list_gaps, score_gaps, 
 from mocapbench.benchmark.filling.costs import predict_seconds
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt
 from mocapbench.benchmark.filling.gap_problem import PredictedEntries
-from mocapbench.benchmark.filling.workers import Workers
+from mocapbench.benchmark.filling.workers import FillBackend
 
 __all__ = ["Contender", "rank_by_kind", "run_rungs"]
 
@@ -71,7 +71,7 @@ class Contender:
 def run_rungs(
     models: Sequence[str],
     hold_outs: Sequence[HoldOut],
-    workers: Workers,
+    workers: FillBackend,
     work: float,
     watch: Callable[[int, int], object],
 ) -> list[Contender]:
@@ -82,7 +82,7 @@ def run_rungs(
     models : sequence of str
         The most promising first: of those whose work is too much beside others, they are in.
     hold_outs : sequence of HoldOut
-    workers : Workers
+    workers : FillBackend
     work : float
         Seconds of a core, as predicted, that all fits together may take.
     watch : callable
@@ -154,7 +154,7 @@ def _shorten(
 def _fill_rung(
     costs: Mapping[Contender, Sequence[float]],
     rung: Sequence[HoldOut],
-    workers: Workers,
+    workers: FillBackend,
     watch: Callable[[int, int], object],
 ) -> None:
     """Have contenders fill all hold-outs of a rung, each of which takes so many seconds of work."""
