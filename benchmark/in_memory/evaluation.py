@@ -23,7 +23,7 @@ from mocapbench.benchmark.in_memory.gap_filling import solve_request
 from mocapbench.benchmark.in_memory.hidden_gaps import Gaps
 from mocapbench.benchmark.in_memory.own_models import ModelLike, name_model
 from mocapbench.benchmark.in_memory.reading import read
-from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.evaluate import score_by
 from mocapbench.datasets import Recording
@@ -187,7 +187,7 @@ def _score_gaps(
     variance[filled.request.target] = filled.std**2
     known = None if np.isnan(filled.std).any() else variance
     prediction = Prediction.around(problem.given[0], filled.recording.values, known)
-    outcome = problem.outcome(FilledRecordings((prediction,)))
+    outcome = problem.outcome((prediction,))
     owners, positions = name_owners(recording.channels), tell_positions(gaps)
     for number, gap in enumerate(gaps):
         in_gap = replace(outcome, hidden=outcome.hidden & mask_gaps([gap], shape))

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.gaps import run_bounds
+from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.errors import UnknownNameError
 from mocapbench.benchmark.filling.requests.names import match_pattern, name_owners
 from mocapbench.benchmark.in_memory.extras import require_extra

@@ -14,13 +14,14 @@ from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import first_of
 from mocapbench.datasets import FrameByChannel, Frames, Mask, Recording, unwrap_angles
 from mocapbench.datasets.formats.building import recording_of
+from mocapbench.datasets.formats.missing_rows import count_missing_rows
 from mocapbench.datasets.formats.tables.columns import (
     TableColumns,
     sort_columns,
     split_unit,
     time_unit,
 )
-from mocapbench.datasets.formats.tables.frame_times import FrameTimes, lacking_rows
+from mocapbench.datasets.formats.tables.frame_times import FrameTimes
 
 __all__ = ["read_frame", "tabulate_values"]
 
@@ -129,7 +130,7 @@ def _find_times(
 def _check_rows(recording: Recording, columns: TableColumns, numbers: FrameByChannel) -> None:
     """Refuse a table that lacks rows between others."""
     frames = None if columns.frame is None else numbers[:, columns.frame]
-    lacking = lacking_rows(frames, recording.times)
+    lacking = count_missing_rows(frames, recording.times)
     if lacking.any():
         after = recording.times[int(lacking.argmax())]
         raise ValueError(

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines import Imputer, LinearImputer, Prediction
-from mocapbench.basics.gaps import run_bounds
+from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling import filled_recording
 from mocapbench.benchmark.filling.choosing import choice, halving, hold_outs

@@ -172,9 +172,7 @@ def test_if_every_model_takes_too_much_work_more_effort_is_advised(waves, hidden
 
 
 @pytest.mark.usefixtures("few_models")
-def test_what_is_allowed_is_not_exceeded_however_many_models_there_are(
-    waves, hidden, monkeypatch
-):
+def test_what_is_allowed_is_not_exceeded_however_many_models_there_are(waves, hidden, monkeypatch):
     monkeypatch.setattr(halving, "predict_seconds", lambda *_: 0.7)
     mask = hidden((50, 58, [0]), (100, 130, [1]))
     for effort, (once, per_entries) in choice.EFFORTS.items():
