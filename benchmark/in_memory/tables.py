@@ -132,7 +132,7 @@ def _check_rows(recording: Recording, columns: TableColumns, numbers: FrameByCha
     frames = None if columns.frame is None else numbers[:, columns.frame]
     lacking = count_missing_rows(frames, recording.times)
     if lacking.any():
-        after = recording.times[int(lacking.argmax())]
+        after = recording.times[np.flatnonzero(lacking)[0]]
         raise ValueError(
             f"{recording.name}: expected a row for each frame, got none for "
             f"{format_count(int(lacking.sum()), 'frame')}, the first after {after:g} s; add rows "
