@@ -169,7 +169,7 @@ NAMES = st.lists(st.text(min_size=1, max_size=5), min_size=4, max_size=4, unique
 
 
 def test_the_same_bits_fill_whatever_the_order_the_names_and_how_quick_workers_are(only):
-    only("linear", "channel-kriging", "lds", "draws")
+    only("linear", "pca-regression", "low-rank", "draws")
     expected = fill_here(make_request())
     assert len({*expected.models}) > 1
 
@@ -197,7 +197,7 @@ def test_models_that_draw_fill_the_same_bits_whatever_the_order(only):
 
 @pytest.mark.slow
 def test_the_same_bits_fill_by_one_worker_and_by_two(monkeypatch):
-    models = ("linear", "pchip", "channel-kriging", "lds")
+    models = ("linear", "pchip", "pca-regression", "low-rank")
     monkeypatch.setattr(choice, "find_candidates", lambda _: models)
     found = []
     for count in (1, 2):
@@ -244,7 +244,7 @@ def test_kinds_are_those_of_the_gaps_of_each_entry(only):
 
 @pytest.mark.parametrize("gap", GAPS, ids=str)
 def test_a_named_model_fills_what_it_is_named_for_and_changes_no_other_bit(only, gap):
-    only("linear", "channel-kriging", "draws")
+    only("linear", "pca-regression", "draws")
     request = make_request()
     named = make_mask(gap)[request.target]
     models = np.where(named, "makima", BEST)
@@ -258,7 +258,7 @@ def test_a_named_model_fills_what_it_is_named_for_and_changes_no_other_bit(only,
 
 
 def test_a_named_model_is_run_alone(only):
-    only("linear", "lds")
+    only("linear", "draws")
     workers = Here()
     filled = fill_here(make_request(models="linear"), workers)
     assert [(model, method) for model, *_, method in workers.submitted] == [("linear", "impute")]
