@@ -1,10 +1,11 @@
 """How good the model is that `mocapbench fill --model best` chooses.
 
 Gaps are cut into recordings of the CMU database, of different people and motions, and filled by
-every able model. Errors are root mean squared errors over the hidden angles, in degrees, and over
-the hidden coordinates of the root, in cm. The score of a fill is the mean of the two, each relative
-to that of `hold`. The choice is compared with the best model, chosen by the truth, and
-with linear interpolation. Takes half an hour on two cores:
+every model that was compared. Errors are root mean squared errors over the hidden angles, in
+degrees, and over the hidden coordinates of the root, in cm. The score of a fill is the mean of the
+two, each relative to that of `hold`. The choice, of a model for each kind of gap, is compared with
+the best model of the file, chosen by the truth, and with linear interpolation. Takes half an hour
+on two cores:
 
     MOCAPBENCH_DATA=FOLDER python docs/evidence/fill.py
 """
@@ -19,10 +20,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.benchmark.filling.candidates import find_candidates
-from mocapbench.benchmark.filling.choosing.choice import Choice, choose
-from mocapbench.benchmark.filling.gap_problem import GapProblem
+from mocapbench.benchmark.filling.costs import predict_calibrated_seconds
+from mocapbench.benchmark.filling.filled_recording import FilledRecording, fill
 from mocapbench.benchmark.filling.gaps import find_gaps
+from mocapbench.benchmark.filling.requests.request import BEST, FillRequest
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.datasets import AcclaimFormat, Mask, Recording, unwrap_angles
 
@@ -48,8 +49,9 @@ RECORDINGS = {
 }
 LONGEST = 1500
 """Frames."""
-BUDGET = 30.0
-"""Seconds."""
+EFFORT = "normal"
+BESIDE = ("hold", "linear")
+"""Models that scores are relative to."""
 N_SPLITS = 100
 CENTIMETRES = 2.54 / 0.45
 """In the unit of length of the database."""
@@ -66,13 +68,16 @@ class Cut(NamedTuple):
 
 
 class Result(NamedTuple):
-    """Errors of each model in the file itself, and how they did in held-out gaps."""
+    """Errors of the choice and of each model in the file itself, and how the file was filled."""
 
     squares: dict[str, Array]
-    """Sums of squared errors in each gap (n, 2): of angles, in deg²; of position, in cm²."""
+    """Sums of squared errors in each gap (n, 2): of angles, in deg²; of position, in cm².
+
+    Those of the choice are called ``best``.
+    """
     counts: Array
     """The number of angles and of coordinates in each gap (n, 2)."""
-    choice: Choice
+    filled: FilledRecording
 
     def errors(self, gaps: NDArray[np.intp] | slice = slice(None)) -> dict[str, Array]:
         """Return the root mean squared errors (2,) of each model over some gaps.
@@ -129,25 +134,28 @@ def problems(
             yield name, kind, recording, mask_of(recording, cut, rng)
 
 
-def evaluate(recording: Recording, hidden: Mask, workers: Workers, budget: float) -> Result:
-    """Return how the choice and every other able model fill the gaps."""
-    problem = GapProblem(unwrap_angles(recording.hide(hidden)), hidden)
-    choice = choose(problem, workers, budget, lambda *_: None)
-    kept = workers.keep(problem)
-    able = [model for model in find_candidates(problem) if model in choice.ranking.order]
-    futures = {model: workers.submit(model, kept, 600.0) for model in able}
-    predictions = {model: workers.collect(future).prediction for model, future in futures.items()}
-    squares = {
-        model: by_gap(recording, hidden, prediction.mean)
-        for model, prediction in predictions.items()
-        if prediction is not None
+def evaluate(recording: Recording, hidden: Mask, workers: Workers, effort: str) -> Result:
+    """Return how the choice and every model that was compared fill the gaps."""
+    named = np.full(int(hidden.sum()), BEST)
+    request = FillRequest(unwrap_angles(recording.hide(hidden)), hidden, named)
+    filled = fill(request, workers, effort, lambda *_: None)
+    assert filled.choice is not None
+    kept = workers.keep(request.problem)
+    futures = {
+        workers.submit(model, kept, predict_calibrated_seconds(model, request.problem)): model
+        for model in dict.fromkeys((*(one.model for one in filled.choice.contenders), *BESIDE))
+    }
+    squares = {BEST: by_gap(recording, hidden, filled.prediction.mean)} | {
+        futures[future]: by_gap(recording, hidden, attempt.prediction.mean)
+        for future, attempt in workers.collect(futures.keys()).items()
+        if attempt.prediction is not None
     }
     angles = np.array(recording.units) == "deg"
     counts = [
         [len(gap) * kind[list(gap.channels)].sum() for kind in (angles, ~angles)]
         for gap in find_gaps(hidden)
     ]
-    return Result(squares, np.array(counts, dtype=float), choice)
+    return Result(squares, np.array(counts, dtype=float), filled)
 
 
 def by_gap(recording: Recording, hidden: Mask, mean: Array) -> Array:
@@ -169,6 +177,11 @@ def by_gap(recording: Recording, hidden: Mask, mean: Array) -> Array:
     )
 
 
+def find_best(scores: dict[str, float]) -> str:
+    """Return the model with the least score."""
+    return min((model for model in scores if model != BEST), key=scores.__getitem__)
+
+
 def by_halves(result: Result, rng: np.random.Generator) -> list[float]:
     """Return the ratios to the best of choices that know the truth, but of the other gaps only.
 
@@ -178,20 +191,19 @@ def by_halves(result: Result, rng: np.random.Generator) -> list[float]:
     for _ in range(N_SPLITS):
         known, filled = np.array_split(rng.permutation(n_gaps), 2)
         before, after = result.scores(known), result.scores(filled)
-        ratios.append(after[min(before, key=before.__getitem__)] / min(after.values()))
+        ratios.append(after[find_best(before)] / after[find_best(after)])
     return ratios
 
 
-def row(what: Sequence[str], result: Result, choice: str, best: str) -> str:
+def row(what: Sequence[str], result: Result, best: str) -> str:
     """Return a row of the table: the errors of the choice, of the best model, and of `linear`."""
     errors = result.errors()
     pairs = {
         model: " | ".join("" if np.isnan(error) else f"{error:.2f}" for error in errors[model])
-        for model in (choice, best, "linear")
+        for model in (BEST, best, "linear")
     }
-    n = str(result.choice.ranking.n_gaps)
-    cells = (*what, n, choice, pairs[choice], best, pairs[best], pairs["linear"])
-    return f"| {' | '.join(cells)} |"
+    used = ", ".join(result.filled.used)
+    return f"| {' | '.join((*what, used, pairs[BEST], best, pairs[best], pairs['linear']))} |"
 
 
 def report(what: str, to: str, ratios: Array, bar: float) -> None:
@@ -207,17 +219,17 @@ def main() -> None:
     """Print a row per recording and kind of gaps, and how often the bars are missed."""
     rows, halves = [], []
     folder = Path(os.environ["MOCAPBENCH_DATA"].split(os.pathsep)[0])
-    print("| recording | gaps | n | choice | ° | cm | best | ° | cm | linear, ° | cm |")
-    print(f"|{'---|' * 11}")
+    print("| recording | gaps | choice | ° | cm | best model | ° | cm | linear, ° | cm |")
+    print(f"|{'---|' * 10}")
     with Workers(os.cpu_count() or 1) as workers:
         for name, kind, recording, hidden in problems(folder):
-            result = evaluate(recording, hidden, workers, BUDGET)
+            result = evaluate(recording, hidden, workers, EFFORT)
             scores, errors = result.scores(), result.errors()
             halves.append(by_halves(result, np.random.default_rng(0)))
-            choice, best = result.choice.ranking.order[0], min(scores, key=scores.__getitem__)
-            print(row((f"{name} {RECORDINGS[name]}", kind), result, choice, best), flush=True)
-            relative = [scores[choice] / scores[other] for other in (best, "linear")]
-            rows.append([*relative, *(errors[choice] / errors["linear"])])
+            best = find_best(scores)
+            print(row((f"{name} {RECORDINGS[name]}", kind), result, best), flush=True)
+            relative = [scores[BEST] / scores[other] for other in (best, "linear")]
+            rows.append([*relative, *(errors[BEST] / errors["linear"])])
     to_best, to_linear, angles, position = np.array(rows).T
     report("Scores", "the best", to_best, 1.10)
     report("Scores", "linear", to_linear, 1.05)

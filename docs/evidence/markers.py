@@ -8,7 +8,7 @@ distances in mm, and of recordings the geometric mean is shown; then the share o
 the 95 % intervals of `marker-kriging` hold. Nothing was chosen on the second recordings.
 Takes 35 minutes on two cores:
 
-    MOCAPBENCH_DATA=FOLDER python docs/evidence/markers.py [MOST_SECONDS]
+    MOCAPBENCH_DATA=FOLDER python docs/evidence/markers.py [EFFORT]
 """
 
 from __future__ import annotations
@@ -34,10 +34,9 @@ from mocapbench.baselines import (
     Prediction,
     RigidBody,
 )
-from mocapbench.benchmark.filling.choosing.choice import choose
-from mocapbench.benchmark.filling.gap_problem import GapProblem
+from mocapbench.benchmark.filling.filled_recording import fill
+from mocapbench.benchmark.filling.requests.request import BEST, FillRequest
 from mocapbench.benchmark.filling.workers import Workers
-from mocapbench.benchmark.registry import MODELS
 from mocapbench.datasets import (
     AcclaimFormat,
     Mask,
@@ -129,26 +128,28 @@ def held(recording: Recording, hidden: Mask, prediction: Prediction) -> float:
 
 
 def fills(
-    recording: Recording, hidden: Mask, workers: Workers, budget: float
+    recording: Recording, hidden: Mask, workers: Workers, effort: str
 ) -> Iterator[tuple[str, float, float]]:
     """Yield what fills, its error, and the share that intervals hold, if it has any."""
     given = recording.hide(hidden)
-    chosen = choose(GapProblem(given, hidden), workers, budget, lambda *_: None).ranking.order[0]
-    for name, model in {**MODELS_ALONE, f"best: {chosen}": MODELS.get(chosen)()}.items():
+    for name, model in MODELS_ALONE.items():
         (prediction,) = model.fit([given]).impute([given])
         share = np.nan if prediction.variance is None else held(recording, hidden, prediction)
         yield name, distance(recording, hidden, prediction.mean), share
+    request = FillRequest(given, hidden, np.full(int(hidden.sum()), BEST))
+    filled = fill(request, workers, effort, lambda *_: None)
+    yield f"best: {filled.used[0]}", distance(recording, hidden, filled.recording.values), np.nan
 
 
-def row(names: Sequence[str], seed: int, wandering: float, workers: Workers, budget: float) -> str:
-    """Return mean errors, what was chosen, and what intervals hold."""
+def row(names: Sequence[str], seed: int, wandering: float, workers: Workers, effort: str) -> str:
+    """Return mean errors, what was chosen for most entries, and what intervals hold."""
     together, n_gaps = list(GAPS.values())[seed]
     errors, chosen, shares = [], [], []
     for name in names:
         rng = np.random.default_rng([seed, int(name[:2]), int(name[3:])])
         recording = recorded(name, wandering, rng)
         hidden = lost(recording, together, n_gaps, rng)
-        filled_by, values, held_by = zip(*fills(recording, hidden, workers, budget), strict=True)
+        filled_by, values, held_by = zip(*fills(recording, hidden, workers, effort), strict=True)
         errors.append(values)
         chosen.append(filled_by[-1].removeprefix("best: "))
         shares.append(held_by[0])
@@ -157,7 +158,7 @@ def row(names: Sequence[str], seed: int, wandering: float, workers: Workers, bud
     return f"{means} | {counts} | {np.mean(shares):.3f} ({min(shares):.2f} to {max(shares):.2f})"
 
 
-def main(budget: str = "15") -> None:
+def main(effort: str = "normal") -> None:
     """Print tables with a line per kind of gap and wandering of markers."""
     with Workers(os.cpu_count() or 1) as workers:
         for kind, recordings in RECORDINGS.items():
@@ -166,7 +167,7 @@ def main(budget: str = "15") -> None:
             print(f"|{'---|' * (len(MODELS_ALONE) + 5)}")
             for seed, what in enumerate(GAPS):
                 for wandering in WANDERING:
-                    shown = row(recordings, seed, wandering, workers, float(budget))
+                    shown = row(recordings, seed, wandering, workers, effort)
                     print(f"| {what} | {wandering:g} | {shown} |", flush=True)
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from mocapbench.benchmark.filling.choosing.hold_outs import HoldOut, make_hold_outs
 from mocapbench.benchmark.filling.choosing.ranking import Ranking, number_positions, rank
-from mocapbench.benchmark.filling.choosing.scores import score_gaps, score_holding, weigh_gaps
+from mocapbench.benchmark.filling.choosing.scores import list_gaps, score_gaps, weigh_gaps
 from mocapbench.benchmark.filling.gap_problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.filling.gaps import find_gaps
 from mocapbench.datasets import Mask, Recording
@@ -65,12 +65,12 @@ def files(name: str, n_files: int) -> Iterator[GapProblem]:
 def rankings(problem: GapProblem, lead: float = 0.0) -> tuple[Ranking, Ranking]:
     """Return the ranking of both models, with each held-out gap as a unit, then each position."""
     hold_outs = make_hold_outs(problem, np.random.default_rng(0))
-    scales, heights = score_holding(hold_outs), {"above": HEIGHT - lead, "below": -HEIGHT}
+    gaps, heights = list_gaps(hold_outs), {"above": HEIGHT - lead, "below": -HEIGHT}
     errors = {
-        model: score_gaps(hold_outs, [_fill(hold_out, height) for hold_out in hold_outs], scales)
+        model: score_gaps(hold_outs, [_fill(hold_out, height) for hold_out in hold_outs])
         for model, height in heights.items()
     }
-    weights, positions = weigh_gaps(hold_outs), number_positions(hold_outs)
+    weights, positions = weigh_gaps(gaps), number_positions(gaps)
     return rank(errors, weights, np.arange(len(positions))), rank(errors, weights, positions)
 
 

@@ -17,6 +17,9 @@ from shared_files import shared
 
 from mocapbench.benchmark import FORMATS, format_for
 from mocapbench.benchmark.cli import fill as command
+from mocapbench.benchmark.errors import ExitCode
+from mocapbench.benchmark.filling import workers
+from mocapbench.benchmark.filling.choosing import choice
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.datasets import AcclaimFormat, C3DFormat, CSVFormat, FormatError, TRCFormat
 from mocapbench.datasets.formats import memory
@@ -81,6 +84,53 @@ def test_the_best_model_is_chosen_and_the_page_shows_the_ranking(cli, walk, out)
     assert "linear</th>" in page
     assert "cubic-spline" in page
     assert "http" not in page.replace("http://www.w3.org", "").replace("http-equiv", "")
+
+
+SLEEPY = """
+import time
+from mocapbench.baselines import LinearImputer
+class Sleepy(LinearImputer):
+    def impute_uncalibrated(self, recordings):
+        time.sleep(600)
+MODELS = {"sleepy": Sleepy}
+"""
+
+
+def test_a_choice_that_a_limit_of_time_had_a_part_in_has_its_own_exit_code(
+    cli, walk, out, tmp_path, monkeypatch
+):
+    plugin = tmp_path / "sleepy.py"
+    plugin.write_text(SLEEPY)
+    monkeypatch.setattr(workers, "_TIMES", 0.0)
+    monkeypatch.setattr(workers, "_LEAST_LIMIT", 5.0)
+    monkeypatch.setattr(choice, "find_candidates", lambda _: ("linear", "sleepy"))
+    effort = ("--effort", "high", "--plugin", plugin)
+    assert cli("fill", walk, *effort, "--out", out) == ExitCode.NOT_REPEATABLE == 6
+    said = "This cannot be repeated elsewhere: sleepy exceeded a limit of time or memory of this"
+    assert said in " ".join(cli.printed.split())
+    assert "Not compared: sleepy." in " ".join(cli.printed.split())
+    assert said in (out / "walk.csv.html").read_text()
+    assert CSVFormat().read(out / "walk.csv").visible.all()
+
+
+@pytest.mark.slow
+def test_a_fill_can_be_repeated_to_the_bit_whatever_the_jobs_and_the_order_of_files(
+    cli, walk, tmp_path, out
+):
+    trained = [save(tmp_path / f"{n}.csv", rows(gap=range(n))) for n in range(2)]
+    for number, (jobs, order) in enumerate(((1, trained), (2, trained[::-1]))):
+        train = [part for path in order for part in ("--train", path)]
+        options = ("--effort", "low", "--jobs", jobs, "--out", out / str(number))
+        assert cli("fill", walk, *train, *options) == 0
+    for name in ("walk.csv", "walk.csv.entries.csv"):
+        assert (out / "0" / name).read_bytes() == (out / "1" / name).read_bytes()
+
+
+def test_a_seed_is_one_of_the_choice_and_effort_a_word(cli, walk, out):
+    assert cli("fill", walk, "--effort", "huge", "--out", out) == 2
+    assert cli("fill", walk, "--seed=-1", "--out", out) == 2
+    assert cli("fill", walk, "--jobs", "0", "--out", out) == 2
+    assert not out.exists()
 
 
 def test_progress_is_shown_where_there_is_no_terminal(cli, walk, out, monkeypatch):

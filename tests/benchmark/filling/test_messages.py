@@ -201,7 +201,9 @@ def test_a_model_with_intervals_that_is_behind_a_worse_one_is_not_named(filled, 
 @pytest.mark.parametrize(
     ("visible", "train", "said"), [(9, False, True), (10, False, False), (9, True, False)]
 )
-def test_a_channel_of_which_little_is_visible_is_named(filled, waves, hidden, visible, train, said):
+def test_a_channel_of_which_little_is_visible_is_named(
+    filled, waves, hidden, *, visible, train, said
+):
     others = (waves(name="other"),) if train else ()
     request = ask(waves(), hidden((visible, 200, [1])), train=others)
     words = " ".join(list_remarks(filled(request=request)))
@@ -274,7 +276,7 @@ def test_nothing_special_is_passed_over_in_silence(filled):
 )
 @pytest.mark.parametrize("start", [0.0, 1000.0])
 def test_times_that_seem_to_be_milliseconds_are_doubted_wherever_they_begin(
-    filled, waves, hidden, apart, slow, start
+    filled, waves, hidden, *, apart, slow, start
 ):
     late = replace(waves(), times=start + apart * np.arange(200))
     said = [*list_remarks(filled(request=ask(late, hidden((50, 60, [0, 1])))))]

@@ -90,7 +90,7 @@ def test_it_stops_when_one_model_is_the_best_of_each_kind(run):
     }
     errors = {"snap": {KINDS["short"]: 1.0, KINDS["long"]: 9.0}, "bad": 20.0}
     errors["slow"] = {KINDS["short"]: 2.0, KINDS["long"]: 4.0}
-    found, workers = run(errors, BOTH)
+    _, workers = run(errors, BOTH)
     n = workers.filled["snap"]
     assert workers.filled == {"snap": n, "slow": n, "bad": 2}
     assert n < len(BOTH)
