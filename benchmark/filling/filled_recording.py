@@ -111,7 +111,7 @@ def fill(
     all_kinds, kinds = _number_kinds(problem)
     plan = list(_plan_models(named, kept, [all_kinds[k] for k in kinds.tolist()], choice))
     work = choice.work if choice else np.inf
-    attempts = _attempt_in_turn(problem, [each for _, each in plan], workers, work)
+    attempts = _attempt_best_first(problem, [each for _, each in plan], workers, work)
     models = np.full(named.shape, "", object)
     for entries, candidates in plan:
         models[entries] = _find_first(candidates, attempts)
@@ -174,7 +174,7 @@ def _plan_models(
             yield np.array(entries), (name,)
 
 
-def _attempt_in_turn(
+def _attempt_best_first(
     problem: GapProblem, candidates: Sequence[Sequence[str]], workers: FillBackend, work: float
 ) -> dict[str, FillAttempt]:
     """Have the first of each sequence of candidates fill the problem, or else the next.

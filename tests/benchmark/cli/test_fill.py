@@ -96,6 +96,7 @@ MODELS = {"sleepy": Sleepy}
 """
 
 
+@pytest.mark.slow
 def test_a_choice_that_a_limit_of_time_had_a_part_in_has_its_own_exit_code(
     cli, walk, out, tmp_path, monkeypatch
 ):
