@@ -4,7 +4,8 @@ Every able model fills made recordings of joints and of markers, with and withou
 and its processor time is measured, that of processes which it starts included; other work on the
 machine hardly changes it. A power law of the sizes of the problem is fitted to the logarithms::
 
-    OPENBLAS_NUM_THREADS=1 python docs/evidence/fill_costs.py measure MEASURED.csv [MODEL ...]
+    export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+    python docs/evidence/fill_costs.py measure MEASURED.csv [MODEL ...]
     python docs/evidence/fill_costs.py fit MEASURED.csv  # writes the table, prints how good it is
 
 Measurements are added to those that a file has. A fill is stopped after a minute; problems that
