@@ -17,7 +17,7 @@ from __future__ import annotations
 import itertools
 import resource
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -213,18 +213,21 @@ def _count_processor_time() -> float:
 
 
 PRIOR = {"frames": 1.0, "channels": 1.0, "gaps": 0.3, "longest": 0.0, "groups": 0.0, "parts": 0.0}
-"""The exponents that a model has where measurements say nothing."""
+"""The exponents that a model has where measurements say nothing, before calibration."""
 MOST = {"frames": 3.5, "channels": 3.5, "gaps": 1.0, "longest": 3.5, "groups": 1.0, "parts": 1.0}
 """The largest exponents; that of gaps in a window is at most 1, or more windows would cost less."""
 DOUBT = 1.0
 """How far exponents may be from those, in the unit of the logarithms of seconds."""
 
 
-def fit_cost(sizes: pd.DataFrame, seconds: Array) -> dict[str, float]:
-    """Return the coefficient and the exponents of a model and method."""
+def fit_cost(
+    sizes: pd.DataFrame, seconds: Array, expected: Mapping[str, float]
+) -> dict[str, float]:
+    """Return the coefficient of a model and method, and the exponents, near those expected."""
     logs = np.log(sizes[[*PRIOR]].to_numpy(float))
     windows = np.log(sizes["windows"].to_numpy(float))
-    prior, most = np.array([*PRIOR.values()]), np.array([*MOST.values()])
+    prior = np.array([expected[name] for name in PRIOR])
+    most = np.array([*MOST.values()])
 
     def find_residuals(law: Array) -> Array:
         predicted = START + np.exp(law[0] + windows + logs @ law[1:])
@@ -233,7 +236,7 @@ def fit_cost(sizes: pd.DataFrame, seconds: Array) -> dict[str, float]:
         return np.concatenate([errors, (law[1:] - prior) / DOUBT])
 
     bounds = np.r_[-50.0, 0 * most], np.r_[50.0, most]
-    start = np.r_[-12.0, prior + 1e-3]
+    start = np.r_[-12.0, np.clip(prior, 1e-3, most - 1e-3)]
     law = least_squares(find_residuals, start, bounds=bounds, loss="soft_l1").x
     return dict(zip(["seconds", *PRIOR], [float(np.exp(law[0])), *law[1:]], strict=True))
 
@@ -243,10 +246,15 @@ def fit(path: Path) -> None:
     measured = pd.read_csv(path).dropna()
     measured[[*Sizes._fields]] = _measure_all_sizes(measured)
     table, quality = [], []
-    for (model, method), rows in measured.groupby(["model", "method"]):
-        cost = fit_cost(rows[[*Sizes._fields]], rows["seconds"].to_numpy())
-        table.append({"model": model, "method": method, **_round(cost)})
-        quality.append({"model": model, "method": method, **_compare(rows, cost)})
+    for model, of_model in measured.groupby("model"):
+        expected = PRIOR
+        for method in METHODS:  # calibrated fills grow with sizes about as others do
+            rows = of_model[of_model["method"] == method]
+            if len(rows):
+                cost = fit_cost(rows[[*Sizes._fields]], rows["seconds"].to_numpy(), expected)
+                table.append({"model": model, "method": method, **_round(cost)})
+                quality.append({"model": model, "method": method, **_compare(rows, cost)})
+                expected = cost
     text = pd.DataFrame(table).to_csv(index=False, lineterminator="\n")
     TABLE.write_text(text, encoding="utf-8")
     print(pd.DataFrame(quality).to_string(index=False, float_format="%.2f"))
