@@ -18,7 +18,7 @@ from mocapbench.benchmark.filling.gap_cautions import GapCautions
 from mocapbench.benchmark.filling.gaps import Gap, count_entries, find_gaps
 from mocapbench.benchmark.filling.jumps import measure_edges
 from mocapbench.benchmark.filling.requests.names import match_pattern, name_owners
-from mocapbench.benchmark.filling.requests.request import BEST, FillRequest, measure_gap
+from mocapbench.benchmark.filling.requests.request import FillRequest, measure_gap
 
 __all__ = ["describe_gaps", "describe_options", "sort_by_caution", "tabulate_gaps"]
 
@@ -55,7 +55,7 @@ def tabulate_gaps(filled: FilledRecording) -> pd.DataFrame:
         independent positions), all empty where none was held out, and the bounds also where
         positions are too few; ``jump``, the largest step at an edge relative to the largest between
         visible frames of the channel; ``caution``, what makes it doubtful; and ``leave``, the
-        option that leaves it open.
+        rules of `NamedEntries` that leave it open, with commas between.
     """
     given, rows = filled.request.given, [*_find_rows(filled)]
     edges = _group_edges(rows, measure_edges(filled.recording, filled.request.target), filled)
@@ -72,7 +72,7 @@ def tabulate_gaps(filled: FilledRecording) -> pd.DataFrame:
             *_expect_error(filled.choice, row.kind, row.model),
             of_row["relative"].max(),
             _BETWEEN.join(cautions.list_of(row.gap, row.kind, of_row[of_row["jumps"]])),
-            _compose_option(filled.request, row.gap),
+            _compose_rules(filled.request, row.gap),
         )
         for row, of_row in zip(rows, edges, strict=True)
     ]
@@ -97,7 +97,7 @@ def describe_gaps(table: pd.DataFrame) -> pd.DataFrame:
             "expected error": [*map(_describe_error, *(table[name] for name in _OF_ERROR))],
             "jump": table["jump"].map("{:.2g}".format, na_action="ignore").fillna("–"),
             "caution": table["caution"],
-            "leave it open by": table["leave"],
+            "leave it open by": table["leave"].map(_quote_option),
         }
     )
 
@@ -112,16 +112,21 @@ def _describe_error(error: float, low: float, high: float, unit: str) -> str:
     return f"{error:.2g}{bounds} {unit}".rstrip()
 
 
+def _quote_option(rules: str) -> str:
+    return f"--leave {shlex.quote(rules)}"
+
+
 def describe_options(filled: FilledRecording, table: pd.DataFrame) -> str:
     """Return how the first gap of a table is left open, or filled otherwise."""
-    model, option = table["model"].iloc[0], table["leave"].iloc[0]
+    model, rules = table["model"].iloc[0], table["leave"].iloc[0]
     other = next(name for name in _PLAIN if name != model)
-    (_, rules), rest = shlex.split(option), BEST if filled.choice else filled.used[0]
     named = ",".join(f"{rule}={other}" for rule in rules.split(","))
+    first, *more = {*filled.request.models.tolist()}
+    option = f"--model {shlex.quote(f'{named},*={first}')}"
     return (
-        f"To leave a gap open, fill the file again with its option, such as {option}; to fill it "
-        f"by another model, with --model {shlex.quote(f'{named},*={rest}')}. Other gaps stay as "
-        "they are."
+        f"To leave a gap open, add its option, such as {_quote_option(rules)}. To fill it by "
+        f"another model, write {f'{named} first in --model' if more else option}. Other gaps stay "
+        "as they are."
     )
 
 
@@ -171,13 +176,12 @@ def _expect_error(choice: Choice | None, kind: Kind, model: str) -> tuple[float,
     return ranking.means[model], *ranking.intervals[model]
 
 
-def _compose_option(request: FillRequest, gap: Gap) -> str:
-    """Return the option that leaves a gap open: by its marker if that leaves nothing else."""
+def _compose_rules(request: FillRequest, gap: Gap) -> str:
+    """Return the rules that name a gap: one of its marker if that names nothing else."""
     channels = request.given.channels
     owner = escape(name_owners(channels)[gap.channels[0]])
     same = match_pattern(channels, owner) & request.target[gap.start : gap.stop]
     alone = int(same.sum()) == count_entries([gap])
     names = [owner] if alone else [escape(channels[channel]) for channel in gap.channels]
     # A comma separates rules.
-    rules = [f"{name.replace(',', '?')}:{gap.start}-{gap.stop - 1}" for name in names]
-    return f"--leave {shlex.quote(','.join(rules))}"
+    return ",".join(f"{name.replace(',', '?')}:{gap.start}-{gap.stop - 1}" for name in names)

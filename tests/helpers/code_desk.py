@@ -1,6 +1,6 @@
 """The small files on which the commands of the documentation are tried.
 
-Recordings are generated gait. `walk` and `jump` have gaps (as C3D, one of two in lfemur), `other`
+Recordings are generated gait. `walk` and `jump` have gaps (as C3D, one of two in upperback), `other`
 has none, and the folder `walks` holds three people's, for the task file `my.toml`. `cmu` is a
 database of one walk. The plug-ins are those of docs/compare.md. `results` is a finished run,
 `reference` has its metrics, and other runs are copies of it.
@@ -43,7 +43,7 @@ def lay_out(folder, monkeypatch):
 
 
 def _with_two_gaps():
-    """Return markers with a gap in the root, and one in frames 40 to 49 of the left femur."""
+    """Return markers with a gap in the root, and one in frames 40 to 49 of the upper back."""
     recording = with_gap(markers(300))
     hidden = np.zeros(recording.values.shape, dtype=bool)
     hidden[40:50, 6:9] = True

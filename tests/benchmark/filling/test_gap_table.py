@@ -15,7 +15,7 @@ from mocapbench.benchmark.filling.choosing.ranking import number_positions, rank
 from mocapbench.benchmark.filling.choosing.scores import list_gaps, weigh_gaps
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gap_problem import PredictedEntries
-from mocapbench.benchmark.filling.gap_table import sort_by_caution, tabulate_gaps
+from mocapbench.benchmark.filling.gap_table import describe_gaps, sort_by_caution, tabulate_gaps
 from mocapbench.benchmark.filling.jumps import find_jumps
 from mocapbench.benchmark.filling.requests.names import match_pattern
 from mocapbench.benchmark.filling.requests.request import NamedEntries, select
@@ -128,15 +128,16 @@ def test_rows_are_named_by_marker_joint_or_channels():
     np.testing.assert_allclose(table["seconds"], (table["last"] - table["first"] + 1) / 100)
 
 
-def test_the_option_of_a_row_leaves_its_entries_open_and_no_others():
+def test_the_rules_of_a_row_name_its_entries_and_no_others():
     names = ("A*.x", "A*.y", "A*.z", "AB.x", "AB.y", "AB.z", "it, too:1-2.x", "it's.rx")
     recording, mask = record_waves(channels=names), hide(*GAPS)
     filled = fill_with(recording, mask)
-    for row in tabulate_gaps(filled).itertuples():
-        option, rules = shlex.split(row.leave)
-        assert option == "--leave"
+    table = tabulate_gaps(filled)
+    options = [shlex.split(option) for option in describe_gaps(table)["leave it open by"]]
+    assert options == [["--leave", rules] for rules in table["leave"]]
+    for row in table.itertuples():
         left = np.zeros(mask.shape, dtype=bool)
-        for rule in rules.split(","):
+        for rule in row.leave.split(","):
             pattern, _, frames = rule.rpartition(":")
             first, last = map(int, frames.split("-"))
             left[first : last + 1] |= match_pattern(names, pattern)
