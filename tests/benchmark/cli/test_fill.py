@@ -612,7 +612,7 @@ def test_tables_of_every_program_are_filled(cli, tmp_path, out, name):
     path = tmp_path / table.name
     path.write_text(table.text, newline="")
     rate = () if table.rate else ("--rate", 100)
-    assert cli("fill", path, *rate, "--channels", ".*", "--model", "linear", "--out", out) == 0
+    assert cli("fill", path, *rate, "--channels", "*", "--model", "linear", "--out", out) == 0
     filled = CSVFormat().read(out / table.name, 100.0)
     assert filled.visible.all()
     assert filled.channels == table.channels
