@@ -6,7 +6,6 @@ import shlex
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from glob import escape
-from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -32,12 +31,8 @@ _BETWEEN = "; "
 """What stands between cautions of one gap."""
 
 
-class _Row(NamedTuple):
-    """A gap of one marker or joint, in channels of one unit, that one model filled."""
-
-    gap: Gap
-    kind: Kind
-    model: str
+_Row = tuple[Gap, Kind, str]
+"""A gap of one marker or joint, in channels of one unit, its kind, and the model that filled it."""
 
 
 def tabulate_gaps(filled: FilledRecording) -> pd.DataFrame:
@@ -62,19 +57,19 @@ def tabulate_gaps(filled: FilledRecording) -> pd.DataFrame:
     cautions = GapCautions(filled)
     table = [
         (
-            _name_gap(given.channels, given.units, row.gap),
-            row.kind.unit,
-            row.gap.start,
-            row.gap.stop - 1,
-            measure_gap(given, row.gap),
-            str(row.kind),
-            row.model,
-            *_expect_error(filled.choice, row.kind, row.model),
+            _name_gap(given.channels, given.units, gap),
+            kind.unit,
+            gap.start,
+            gap.stop - 1,
+            measure_gap(given, gap),
+            str(kind),
+            model,
+            *_expect_error(filled.choice, kind, model),
             of_row["relative"].max(),
-            _BETWEEN.join(cautions.list_of(row.gap, row.kind, of_row[of_row["jumps"]])),
-            _compose_rules(filled.request, row.gap),
+            _BETWEEN.join(cautions.list_of(gap, kind, of_row[of_row["jumps"]])),
+            _compose_rules(filled.request, gap),
         )
-        for row, of_row in zip(rows, edges, strict=True)
+        for (gap, kind, model), of_row in zip(rows, edges, strict=True)
     ]
     return pd.DataFrame(table, columns=_COLUMNS)
 
@@ -133,7 +128,7 @@ def describe_options(filled: FilledRecording, table: pd.DataFrame) -> str:
 def _find_rows(filled: FilledRecording) -> list[_Row]:
     """Return the rows by their first frame, and by the order of channels."""
     owners = name_owners(filled.request.given.channels)
-    rows = []
+    rows: list[_Row] = []
     for number, model in {*zip(filled.kinds.tolist(), filled.models.tolist(), strict=True)}:
         mask = np.zeros(filled.request.target.shape, dtype=bool)
         mask[filled.request.target] = (filled.kinds == number) & (filled.models == model)
@@ -143,8 +138,8 @@ def _find_rows(filled: FilledRecording) -> list[_Row]:
                 of_owner[owners[channel]].append(channel)
             for channels in of_owner.values():
                 alone = Gap(gap.start, gap.stop, tuple(channels))
-                rows.append(_Row(alone, filled.all_kinds[number], model))
-    return sorted(rows, key=lambda row: (row.gap.start, row.gap.channels))
+                rows.append((alone, filled.all_kinds[number], model))
+    return sorted(rows, key=lambda row: (row[0].start, row[0].channels))
 
 
 def _group_edges(
@@ -152,8 +147,8 @@ def _group_edges(
 ) -> Iterator[pd.DataFrame]:
     """Yield the edges of each row."""
     numbers = np.full(filled.request.target.shape, -1)
-    for number, row in enumerate(rows):
-        numbers[row.gap.start : row.gap.stop, list(row.gap.channels)] = number
+    for number, (gap, _, _) in enumerate(rows):
+        numbers[gap.start : gap.stop, list(gap.channels)] = number
     of_edges = numbers[edges["frame"], edges["channel"]]
     return (edges[of_edges == number] for number in range(len(rows)))
 

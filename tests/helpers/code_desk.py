@@ -1,8 +1,8 @@
 """The small files on which the commands of the documentation are tried.
 
-Recordings are generated gait. `walk` and `jump` have gaps (as C3D, one of two in upperback), `other`
-has none, and the folder `walks` holds three people's, for the task file `my.toml`. `cmu` is a
-database of one walk. The plug-ins are those of docs/compare.md. `results` is a finished run,
+Recordings are generated gait. `walk` and `jump` have gaps (as C3D, one of two in upperback),
+`other` has none, and the folder `walks` holds three people's, for the task file `my.toml`. `cmu` is
+a database of one walk. The plug-ins are those of docs/compare.md. `results` is a finished run,
 `reference` has its metrics, and other runs are copies of it.
 """
 

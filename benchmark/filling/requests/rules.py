@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,40 +23,6 @@ BEST = "best"
 """In place of a model's name: the one with the least error in held-out gaps of its kind."""
 _WITH_FRAMES = re.compile(r"(.+):(\d{1,9})-(\d{1,9})", re.DOTALL)
 _ALL = "*"
-
-
-@dataclass(frozen=True)
-class _Rule:
-    """A pattern, with the frames that it is for.
-
-    Parameters
-    ----------
-    option, text : str
-        As the user writes them.
-    pattern : str
-    frames : slice
-    """
-
-    option: str
-    text: str
-    pattern: str
-    frames: slice
-
-    def mark(self, recording: Recording, target: Mask) -> Mask:
-        """Return which of the entries to fill (N, D) the rule names.
-
-        Raises
-        ------
-        UsageError
-            If there are none.
-        """
-        marked = np.zeros_like(target)
-        marked[self.frames] = target[self.frames]
-        marked &= match_pattern(recording.channels, self.pattern)
-        if not marked.any():
-            said = explain_no_named_gap(recording.channels, target, self.pattern, self.text)
-            raise UsageError(f"{recording.name}: {self.option}: {said}")
-        return marked
 
 
 def mark_left(
@@ -79,9 +44,9 @@ def mark_left(
         If a rule cannot be read, or names nothing that is to be filled.
     """
     left = np.zeros_like(target)
-    for rule in _parse_rules("--leave", leave):
-        left |= rule.mark(recording, target)
-    named = [rule.mark(recording, target) for rule in _parse_rules("--only", only)]
+    for rule in leave:
+        left |= _mark_named(recording, target, "--leave", rule)
+    named = [_mark_named(recording, target, "--only", rule) for rule in only]
     return left | (target & ~np.any(named, axis=0)) if named else left
 
 
@@ -104,10 +69,10 @@ def assign_models(recording: Recording, target: Mask, rules: str) -> NDArray[np.
     models, numbers = [BEST], np.zeros(target.shape, dtype=np.int32)
     waiting = target.copy()
     for number, (rule, model) in enumerate(_parse_models(rules), start=1):
-        marked = rule.mark(recording, target) & waiting
-        if rule.pattern != _ALL and not marked.any():
+        marked = _mark_named(recording, target, "--model", rule) & waiting
+        if rule != _ALL and not marked.any():
             raise UsageError(
-                f"--model: expected rules of which each is the first for a gap, got {rule.text!r} "
+                f"--model: expected rules of which each is the first for a gap, got {rule!r} "
                 f"after others for the same gaps in {rules!r}; put it before them"
             )
         models.append(model)
@@ -116,30 +81,46 @@ def assign_models(recording: Recording, target: Mask, rules: str) -> NDArray[np.
     return np.array(models)[numbers[target]]
 
 
-def _parse_models(rules: str) -> Iterator[tuple[_Rule, str]]:
+def _parse_models(rules: str) -> Iterator[tuple[str, str]]:
     """Yield the rules of ``--model``, each with its model."""
     for text in rules.split(","):
         # Models have no equals sign in their names, and markers may have.
-        pattern, equals, model = (part.strip() for part in text.rpartition("="))
-        if not model or (equals and not pattern):
+        rule, equals, model = (part.strip() for part in text.rpartition("="))
+        if not model or (equals and not rule):
             raise UsageError(
                 "--model: expected a model, or rules such as 'LKNE=linear,R*:0-99=makima,*=best', "
                 f"got {rules!r}"
             )
-        (rule,) = _parse_rules("--model", [pattern or _ALL])
-        yield rule, model
+        yield rule or _ALL, model
 
 
-def _parse_rules(option: str, texts: Sequence[str]) -> Iterator[_Rule]:
-    for text in texts:
-        found = _WITH_FRAMES.fullmatch(text)
-        if found is None:
-            yield _Rule(option, text, text, slice(None))
-            continue
-        first, last = int(found[2]), int(found[3])
-        if first > last:
-            raise UsageError(
-                f"{option}: expected the first frame before the last, as in LKNE:{last}-{first}, "
-                f"got {text!r}"
-            )
-        yield _Rule(option, text, found[1], slice(first, last + 1))
+def _mark_named(recording: Recording, target: Mask, option: str, rule: str) -> Mask:
+    """Return which of the entries to fill (N, D) a rule of an option names.
+
+    Raises
+    ------
+    UsageError
+        If there are none.
+    """
+    pattern, frames = _parse_rule(option, rule)
+    named = np.zeros_like(target)
+    named[frames] = target[frames]
+    named &= match_pattern(recording.channels, pattern)
+    if not named.any():
+        said = explain_no_named_gap(recording.channels, target, pattern, rule)
+        raise UsageError(f"{recording.name}: {option}: {said}")
+    return named
+
+
+def _parse_rule(option: str, rule: str) -> tuple[str, slice]:
+    """Return the pattern of a rule, and the frames that it is for."""
+    found = _WITH_FRAMES.fullmatch(rule)
+    if found is None:
+        return rule, slice(None)
+    first, last = int(found[2]), int(found[3])
+    if first > last:
+        raise UsageError(
+            f"{option}: expected the first frame before the last, as in LKNE:{last}-{first}, "
+            f"got {rule!r}"
+        )
+    return found[1], slice(first, last + 1)

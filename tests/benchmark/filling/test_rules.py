@@ -108,7 +108,8 @@ def test_the_said_option_fills_the_first_row_by_another_model(gappy, model):
     again = tabulate_gaps(fill_here(gappy, model=rules))
     assert again["model"][0] != table["model"][0]
     mixed = fill_here(gappy, model="knee=makima,linear")
-    assert "write hip:20-29=makima first in --model. Other" in describe_options(mixed, tabulate_gaps(mixed))
+    said = describe_options(mixed, tabulate_gaps(mixed))
+    assert "write hip:20-29=makima first in --model. Other" in said
     pd.testing.assert_frame_equal(again[1:], table[1:])
 
 
