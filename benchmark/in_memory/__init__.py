@@ -1,1 +1,1 @@
-"""Filling and comparing in memory: what ``import mocapbench`` offers to a notebook."""
+"""Filling and comparing recordings in memory, as a notebook does by the names of mocapbench itself."""

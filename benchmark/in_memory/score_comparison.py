@@ -55,9 +55,10 @@ def compare(scores: pd.DataFrame, *, by: str = "gap", rope: float = ROPE) -> pd.
     >>> import mocapbench
     >>> from mocapbench.datasets import GaitLibrary
     >>> walk = GaitLibrary().recording("01_01")
-    >>> scores = mocapbench.evaluate(walk, ["linear", "pchip"], metrics=["mse"])
+    >>> hide = mocapbench.Gaps(seconds=0.1, what="limb", count=8)
+    >>> scores = mocapbench.evaluate(walk, ["hold", "pchip"], hide, metrics=["mse"])
     >>> mocapbench.compare(scores)[["first", "second", "verdict"]].values.tolist()
-    [['pchip', 'linear', 'may be chance']]
+    [['pchip', 'hold', 'more than chance']]
     """
     _check_scores(scores, by)
     tables = []
