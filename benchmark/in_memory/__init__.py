@@ -1,1 +1,1 @@
-"""Filling and comparing recordings in memory, as a notebook does by the names of mocapbench itself."""
+"""Filling and comparing recordings in memory, by the names that `mocapbench` itself offers."""

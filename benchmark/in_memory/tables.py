@@ -130,7 +130,7 @@ def _find_times(
 def _check_rows(recording: Recording, columns: TableColumns, numbers: FrameByChannel) -> None:
     """Refuse a table that lacks rows between others."""
     frames = None if columns.frame is None else numbers[:, columns.frame]
-    lacking = count_missing_rows(frames, recording.times)
+    lacking = count_missing_rows(len(numbers), frames, recording.times)
     if lacking.any():
         after = recording.times[np.flatnonzero(lacking)[0]]
         raise ValueError(
