@@ -12,7 +12,7 @@ def first(held_out, hidden):
 
 
 def test_scores_are_closed_forms_for_each_gap_and_unit(first):
-    """Angles are off by 1 and 2 degrees alternately, a place by one centimetre a frame of its gap."""
+    """Angles are off by 1 and 2 degrees in turn, a place by one centimetre a frame of its gap."""
     off = np.where(np.arange(len(first.truth)) % 2, 1.0, 2.0)
     expected = []
     for gap in first.gaps:
