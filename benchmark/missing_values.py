@@ -20,7 +20,15 @@ from mocapbench.basics.words import format_count, join_names
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["MissingRule", "choose_missing_rule", "tell_missing", "undecided_values"]
+__all__ = [
+    "MissingRule",
+    "Told",
+    "choose_missing_rule",
+    "find_held",
+    "find_zeros",
+    "tell_missing",
+    "undecided_values",
+]
 
 _NAMED = 4
 """Markers that a sentence names at most."""
@@ -97,9 +105,9 @@ def _tell_marked(mark: Callable[[Recording], Mask], recording: Recording) -> Tol
 
 def undecided_values(recording: Recording) -> str:
     """Return which values may stand for missing ones where no rule tells it."""
-    zeros = {name: int(rows.sum()) for name, rows in _zero_rows(recording).items()}
+    zeros = {name: int(rows.sum()) for name, rows in find_zeros(recording).items()}
     held: dict[str, int] = {}
-    for name, start, stop, _ in _find_held(recording):
+    for name, start, stop, _ in find_held(recording):
         held[name] = max(held.get(name, 0), stop - start)
     sentences = (
         _count_frames(
@@ -132,7 +140,7 @@ def _tell_zeros(recording: Recording) -> Told:
     If they stand for missing values of one marker, they do so for all of the file.
     """
     markers = points_of(recording.channels, recording.units)
-    rows = _zero_rows(recording)
+    rows = find_zeros(recording)
     far = {
         name: int(at.sum())
         for name, at in rows.items()
@@ -160,7 +168,7 @@ def _zeros_of(recording: Recording) -> str:
     return ", ".join("0" * max(axes, default=3))
 
 
-def _zero_rows(recording: Recording) -> dict[str, Mask]:
+def find_zeros(recording: Recording) -> dict[str, Mask]:
     """Return the frames (N,) in which each marker that is elsewhere in others is at the origin."""
     found = {}
     for name, places in points_of(recording.channels, recording.units).items():
@@ -220,7 +228,7 @@ def _tell_held(recording: Recording) -> Told:
     markers = markers_of(recording.channels, recording.units)
     mask = _nothing(recording)
     told: dict[str, int] = {}
-    for name, start, stop, sudden in _find_held(recording):
+    for name, start, stop, sudden in find_held(recording):
         if sudden:
             mask[start:stop, list(markers[name])] = True
             told[name] = told.get(name, 0) + stop - start
@@ -236,7 +244,7 @@ def _tell_held(recording: Recording) -> Told:
     )
 
 
-def _find_held(recording: Recording) -> Iterator[tuple[str, int, int, bool]]:
+def find_held(recording: Recording) -> Iterator[tuple[str, int, int, bool]]:
     """Yield each marker that is exactly where it was before, and in which frames [start, stop).
 
     With them goes whether it leaps before or after them, while at least half of the others move.

@@ -119,7 +119,7 @@ def fill(
         filling.split_names(leave or ()),
         filling.split_names(only or ()),
     )
-    reading = filling.Reading(
+    reading = bench.Reading(
         rate, min_likelihood, insert_missing, bench.choose_missing_rule(missing)
     )
 

@@ -5,7 +5,6 @@ from .input_files import InputFile, read_input_files
 from .messages import describe_choice, describe_fill, list_remarks
 from .output_files import OutputPaths, name_output_files, require_writable, write
 from .page import compose_page
-from .reading import Reading
 from .requests.names import split_names
 from .requests.refusals import NothingToFillError
 from .requests.request import NamedEntries
@@ -18,7 +17,6 @@ __all__ = [
     "NamedEntries",
     "NothingToFillError",
     "OutputPaths",
-    "Reading",
     "Workers",
     "compose_page",
     "describe_choice",

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.reading import Reading
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
+from mocapbench.benchmark.reading import Reading
 from mocapbench.datasets import Format, FormatError, Recording, check_alike
 from mocapbench.datasets.formats.strays import find_unmeasured
 

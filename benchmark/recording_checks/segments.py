@@ -9,11 +9,8 @@ import pandas as pd
 
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.mask_runs import run_bounds
-from mocapbench.benchmark.recording_checks.findings_table import (
-    MarkerPaths,
-    measure_extent,
-    tabulate_findings,
-)
+from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
+from mocapbench.benchmark.recording_checks.paths import Paths, measure_extent
 
 __all__ = ["find_segment_jumps"]
 
@@ -22,11 +19,13 @@ _STIFF, _QUANTILE = 0.05, 0.9
 _BEYOND, _FLOOR = 5.0, 0.015
 """How many times that quantile the length of a segment differs where it is wrong, and how much of
 the extent of all markers, at least."""
+_SAMPLES = 2000
+"""Frames in which segments are sought."""
 _FEWEST = 30
 """Frames in which both markers are seen, at least, to tell whether they are a segment."""
 
 
-def find_segment_jumps(paths: MarkerPaths) -> pd.DataFrame:
+def find_segment_jumps(paths: Paths) -> pd.DataFrame:
     """Return in which frames the length of a segment is not what it is in most others.
 
     A segment is a marker and the one whose distance from it varies least.
@@ -47,21 +46,30 @@ def find_segment_jumps(paths: MarkerPaths) -> pd.DataFrame:
 
 
 def _find_segments(positions: Array) -> Iterator[tuple[int, int, Array, float]]:
-    """Yield the markers of each segment, the differences (N,) of its length, and their spread."""
-    found = set()
-    for one in range(positions.shape[1]):
-        lengths = np.linalg.norm(positions - positions[:, [one]], axis=2)
-        lengths[:, np.isfinite(lengths).sum(axis=0) < _FEWEST] = np.nan
-        usable = np.flatnonzero(np.isfinite(lengths).any(axis=0))
-        usable = usable[usable != one]
-        if not len(usable):
-            continue
-        lengths = lengths[:, usable]
-        usual = np.nanmedian(lengths, axis=0)
+    """Yield the markers of each segment, the differences (N,) of its length, and their spread.
+
+    In long recordings, the marker whose distance varies least is sought in some frames.
+    """
+    some = np.linspace(0, len(positions) - 1, min(len(positions), _SAMPLES)).astype(np.intp)
+    pairs = {
+        pair for one in range(positions.shape[1]) for pair in _find_stiffest(positions[some], one)
+    }
+    for one, other in sorted(pairs):
+        lengths = np.linalg.norm(positions[:, one] - positions[:, other], axis=1)
+        usual = np.nanmedian(lengths)
         differences = np.abs(lengths - usual)
-        spreads = np.nanquantile(differences, _QUANTILE, axis=0)
-        best = int(np.argmin(spreads))
-        pair = (min(one, int(usable[best])), max(one, int(usable[best])))
-        if spreads[best] <= _STIFF * usual[best] and pair not in found:
-            found.add(pair)
-            yield *pair, differences[:, best], float(spreads[best])
+        spread = float(np.nanquantile(differences, _QUANTILE))
+        if spread <= _STIFF * usual:
+            yield one, other, differences, spread
+
+
+def _find_stiffest(positions: Array, one: int) -> Iterator[tuple[int, int]]:
+    """Yield a marker and the one whose distance from it varies least, if any is seen with it."""
+    lengths = np.linalg.norm(positions - positions[:, [one]], axis=2)
+    usable = np.isfinite(lengths).sum(axis=0) >= _FEWEST
+    usable[one] = False
+    if usable.any():
+        others, lengths = np.flatnonzero(usable), lengths[:, usable]
+        differences = np.abs(lengths - np.nanmedian(lengths, axis=0))
+        best = int(others[np.argmin(np.nanquantile(differences, _QUANTILE, axis=0))])
+        yield min(one, best), max(one, best)

@@ -1,4 +1,4 @@
-"""Visibility: gaps of markers and of other channels, their ends, and frames without any marker."""
+"""Visibility: gaps of markers and of other channels, their ends, and frames that lack all."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.baselines.common.markers import markers_of
-from mocapbench.basics.arrays import Mask
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
+from mocapbench.benchmark.recording_checks.paths import mask_missing_rows
 from mocapbench.datasets import Recording
 
-__all__ = ["find_hidden"]
+__all__ = ["find_hidden", "find_missing_rows", "place_markers"]
 
 
 def find_hidden(recording: Recording) -> pd.DataFrame:
@@ -26,7 +26,10 @@ def find_hidden(recording: Recording) -> pd.DataFrame:
         ``after`` the last; ``never`` where it is seen in none; and ``empty`` where nothing is seen.
         A marker of which one coordinate is hidden is not seen.
     """
-    hidden = _hide_whole(recording)
+    hidden = [
+        (name, np.asarray(~recording.visible[:, places].all(axis=1)))
+        for name, places in place_markers(recording)
+    ]
     n_frames = len(recording.times)
     rows = [
         (_name_kind(start, stop, n_frames), (name,), start, stop, np.nan)
@@ -39,15 +42,23 @@ def find_hidden(recording: Recording) -> pd.DataFrame:
     return tabulate_findings(rows)
 
 
-def _hide_whole(recording: Recording) -> list[tuple[str, Mask]]:
-    """Return the frames (N,) in which each marker, or channel of none, is hidden."""
-    return [
-        (name, np.asarray(~recording.visible[:, places].all(axis=1)))
-        for name, places in _name_places(recording)
-    ]
+def find_missing_rows(recording: Recording) -> pd.DataFrame:
+    """Return between which frames rows are missing, as times jump there.
+
+    Returns
+    -------
+    DataFrame
+        A row each with the kind ``rows``, the two frames, and how many rows are missing.
+    """
+    steps = np.diff(recording.times)
+    (behind,) = np.nonzero(mask_missing_rows(recording.times))
+    counts = np.round(steps[behind] / np.median(steps) - 1) if len(behind) else steps[:0]
+    return tabulate_findings(
+        [("rows", (), k, k + 2, n) for k, n in zip(behind.tolist(), counts.tolist(), strict=True)]
+    )
 
 
-def _name_places(recording: Recording) -> Iterator[tuple[str, list[int]]]:
+def place_markers(recording: Recording) -> Iterator[tuple[str, list[int]]]:
     """Yield markers with the places of their coordinates, then channels that are of none."""
     markers = markers_of(recording.channels, recording.units)
     yield from ((name, list(places)) for name, places in markers.items())

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.formats import format_for
-from mocapbench.benchmark.missing_values import MissingRule, tell_missing
+from mocapbench.benchmark.missing_values import MissingRule, Told, tell_missing
 from mocapbench.datasets import Format, Recording, unwrap_angles
+from mocapbench.datasets.formats.strays import find_unmeasured
 
 __all__ = ["Reading"]
 
@@ -27,12 +31,15 @@ class Reading(NamedTuple):
         Whether frames of which a file has no row are read as hidden, and rows are added.
     missing : callable
         What tells missing values.
+    spikes : callable or None
+        What tells spikes, which are hidden in the files to fill.
     """
 
     rate: float | None = None
     min_likelihood: float | None = None
     insert_missing: bool = False
     missing: MissingRule = tell_missing
+    spikes: MissingRule | None = None
 
     def format_of(self, path: Path) -> Format:
         """Return the format in which a file is read and written."""
@@ -44,8 +51,7 @@ class Reading(NamedTuple):
 
         It has the name of its path, since models want distinct names.
         """
-        stated = self.format_of(path).read_as_stated(path, self.rate)
-        likely = self._hide_unlikely(path, replace(stated, name=str(path)))
+        likely = self.read_as_stated(path)
         mask, remarks = self.missing(likely)
         return unwrap_angles(likely.hide(mask)), remarks
 
@@ -54,6 +60,25 @@ class Reading(NamedTuple):
         if self.min_likelihood is not None or self.format_of(path).likelihoods(path) is None:
             return ""
         return "; --min-likelihood 0.6, for instance, fills what the file itself finds less likely"
+
+    def find_spikes(self, recording: Recording, results: Collection[str]) -> Told:
+        """Return which entries are to be hidden as spikes, and what is to be said of them.
+
+        Unlabelled markers and results of a model have none.
+        """
+        mask = np.zeros(recording.values.shape, dtype=bool)
+        if self.spikes is None:
+            return mask, ()
+        others = find_unmeasured(recording.channels, results)
+        measured = [name for name in recording.channels if name not in others]
+        columns = [recording.channels.index(name) for name in measured]
+        mask[:, columns], remarks = self.spikes(recording.select(measured))
+        return mask, remarks
+
+    def read_as_stated(self, path: Path) -> Recording:
+        """Return the recording of a file before missing values are told from others."""
+        stated = self.format_of(path).read_as_stated(path, self.rate)
+        return self._hide_unlikely(path, replace(stated, name=str(path)))
 
     def _hide_unlikely(self, path: Path, recording: Recording) -> Recording:
         if self.min_likelihood is None:
