@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.faults import Fault, find_faults_at_gaps
+from mocapbench.benchmark.filling.gaps import Gap, find_gaps
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
 from mocapbench.benchmark.reading import Reading
@@ -31,12 +34,20 @@ class InputFile:
         What of it is to be filled.
     remarks : tuple of str
         What is to be said of missing values in the files.
+    spikes : tuple of Gap
+        Entries to fill that were hidden as spikes.
     """
 
     path: Path
     format: Format
     request: FillRequest
     remarks: tuple[str, ...] = ()
+    spikes: tuple[Gap, ...] = ()
+
+    @cached_property
+    def faults(self) -> list[Fault]:
+        """The faults that touch a gap to fill."""
+        return find_faults_at_gaps(self.request)
 
 
 def read_input_files(
@@ -95,13 +106,16 @@ def _read_input_file(
 ) -> InputFile:
     file, (recording, remarks) = reading.format_of(path), reading.read(path)
     results = file.results(path, recording.channels)
+    spikes, said_of_spikes = reading.find_spikes(recording, results)
+    recording = recording.hide(spikes)
     train = {other: told for other, told in others.items() if other != path.resolve()}
     of_train = (f"{other.name}: {text}" for other, (_, said) in train.items() for text in said)
     try:
         request = compose_request(recording, entries, [one for one, _ in train.values()], results)
     except NothingToFillError as error:
         raise NothingToFillError(f"{error}{reading.suggest_likelihoods(path)}") from None
-    return InputFile(path, file, request, (*remarks, *of_train))
+    said = (*remarks, *said_of_spikes, *of_train)
+    return InputFile(path, file, request, said, find_gaps(spikes & request.target))
 
 
 def compose_request(

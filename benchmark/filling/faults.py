@@ -1,0 +1,67 @@
+"""Faults that touch a gap to fill, as models learn from the frames beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+from typing import Any
+
+from mocapbench.benchmark import recording_checks
+from mocapbench.benchmark.filling.requests.names import name_hidden_markers
+from mocapbench.benchmark.filling.requests.request import FillRequest
+from mocapbench.datasets.formats.strays import find_unmeasured
+
+__all__ = ["describe_faults", "find_faults_at_gaps", "tabulate_faults"]
+
+_NAMED = 3
+"""Markers, or pairs, with faults of a kind that a sentence names at most."""
+_BESIDE = 5
+"""Frames between a fault and a gap beside it at most."""
+Fault = dict[str, Any]
+
+
+def find_faults_at_gaps(request: FillRequest) -> list[Fault]:
+    """Return the faults of markers within or beside a gap of theirs that is to be filled.
+
+    They are the gravest kinds first, as `mocapbench inspect` lists them in JSON.
+    """
+    given = request.given
+    others = find_unmeasured(given.channels, request.results)
+    measured = given.select([name for name in given.channels if name not in others])
+    gaps = [
+        (gap.start, gap.stop, {*name_hidden_markers(given.channels, [gap])}) for gap in request.gaps
+    ]
+    touching = [
+        fault
+        for fault in recording_checks.list_faults(measured)
+        if any(
+            fault["start"] <= stop + _BESIDE
+            and start <= fault["stop"] + _BESIDE
+            and names & {*fault["markers"]}
+            for start, stop, names in gaps
+        )
+    ]
+    kinds = [*recording_checks.TITLES]
+    return sorted(touching, key=lambda fault: kinds.index(fault["kind"]))
+
+
+def describe_faults(faults: Sequence[Fault]) -> Iterator[str]:
+    """Yield a sentence on the faults of each kind."""
+    for kind, of_kind in groupby(faults, key=lambda fault: fault["kind"]):
+        groups = recording_checks.group_findings([*of_kind])
+        told = "; ".join(map(recording_checks.describe_together, groups[:_NAMED]))
+        more = f"; and {len(groups) - _NAMED} others" if len(groups) > _NAMED else ""
+        advice = " --hide-spikes hides spikes first." if kind == "spike" else ""
+        title = recording_checks.TITLES[kind]
+        yield f"{title[0].upper()}{title[1:]}, at gaps: {told}{more}.{advice}"
+
+
+def tabulate_faults(faults: Sequence[Fault]) -> Iterator[tuple[str, str, str, str]]:
+    """Yield of each fault what it is, of which markers, in which frames, and how large."""
+    for fault in faults:
+        yield (
+            recording_checks.TITLES[fault["kind"]],
+            " and ".join(fault["markers"]),
+            recording_checks.describe_frames(fault),
+            recording_checks.describe_size(fault),
+        )
