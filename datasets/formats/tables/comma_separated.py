@@ -15,13 +15,13 @@ __all__ = ["CSVFormat"]
 class CSVFormat(TableFormat):
     r"""Tables of text (.csv, .tsv, .mot, .sto): a row a frame, a column for each channel.
 
-    Tables of OptiTrack Motive, Vicon Nexus, Qualisys, DeepLabCut and OpenSim are known by their
-    heads. In all others the first line names the columns. ``time`` is in seconds, or in other units
-    by name or by its steps; without it, reading takes a rate. A channel may state its unit in
-    brackets, such as ``knee.rx [deg]``, or a known one in parentheses, ``knee.rx (deg)``; angles
-    are unwrapped only if it is ``deg`` or ``rad``. Cells that are empty, NaN, NA or null are
-    hidden. A count of frames and columns of text are no channels, and are kept as they are; a
-    column that is mostly numbers has to be all numbers.
+    Tables of OptiTrack Motive, Vicon Nexus, Qualisys, DeepLabCut, OpenSim and iSen are known by
+    their heads. In all others the first line names the columns. ``time`` is in seconds, or in other
+    units by name or by its steps, or that of a clock; without it, reading takes a rate. A channel
+    may state its unit in brackets, such as ``knee.rx [deg]``, or a known one in parentheses,
+    ``knee.rx (deg)``; angles are unwrapped only if it is ``deg`` or ``rad``. Cells that are empty,
+    NaN, NA or null are hidden. A count of frames and columns of text are no channels, and are kept
+    as they are; a column that is mostly numbers has to be all numbers.
 
     Semicolons or tabs may stand between columns. Numbers may then have decimal commas, and are
     written as they were read. Where several rows have one frame, a column of text tells of which
