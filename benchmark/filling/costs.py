@@ -131,15 +131,13 @@ def _check_declared(name: str, declared: Any) -> None:
     sizes = Sizes._fields[1:]
     try:
         numbers = [float(declared["seconds"]), *(float(each) for each in declared.values())]
-        good = {*declared} <= {"seconds", *sizes} and all(
-            0.0 <= each < math.inf for each in numbers
-        )
+        good = {*declared} <= {"seconds", *sizes} and all(0.0 <= each <= 9.0 for each in numbers)
     except (TypeError, KeyError, ValueError, AttributeError):
         good = False
     if not good:
         raise UsageError(
             f"model {name!r}: expected a fill_cost that maps 'seconds', and some of "
-            f"{', '.join(map(repr, sizes))}, to numbers of at least 0, got {declared!r}; correct "
+            f"{', '.join(map(repr, sizes))}, to numbers from 0 to 9, got {declared!r}; correct "
             "it, or leave it out"
         )
 
@@ -153,9 +151,8 @@ def count_seconds(cost: Mapping[str, float], sizes: Sizes) -> float:
         The coefficient ``"seconds"``, and exponents by the names of sizes.
     sizes : Sizes
     """
-    powers = [float(size) ** cost.get(name, 0.0) for name, size in sizes._asdict().items()]
-    work = sizes.windows * cost["seconds"] * math.prod(powers)
-    return START + float(work)
+    powers = (math.pow(size, cost.get(name, 0.0)) for name, size in sizes._asdict().items())
+    return START + sizes.windows * cost["seconds"] * math.prod(powers)
 
 
 def measure_sizes(problem: GapProblem, max_frames: int | None) -> Sizes:

@@ -227,6 +227,7 @@ def test_a_model_that_declares_nothing_costs_as_much_as_another(register, predic
         {"seconds": "fast"},
         {"seconds": 1, "pages": 2},
         {"seconds": 1, "frames": -1},
+        {"seconds": 1, "frames": 1000},
         {"seconds": math.nan},
         {"seconds": math.inf},
     ],
