@@ -123,7 +123,8 @@ def _find_cost(name: str, model: Any, method: str) -> Mapping[str, float]:
     if (listed, key) in measured or declared is None:
         return measured.get((listed, key), measured[STAND_IN, key])
     _check_declared(name, declared)
-    return {**declared, "seconds": declared["seconds"] * (CALIBRATING if is_calibrated else 1.0)}
+    cost = {size: float(number) for size, number in declared.items()}
+    return {**cost, "seconds": cost["seconds"] * (CALIBRATING if is_calibrated else 1.0)}
 
 
 def _check_declared(name: str, declared: Any) -> None:
