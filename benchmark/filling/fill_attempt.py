@@ -18,6 +18,7 @@ from traceback import extract_tb
 from typing import Any
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from mocapbench.baselines import FrameImputer, Model, Prediction
 from mocapbench.basics.arrays import Array
@@ -87,6 +88,8 @@ def attempt_fill(
         What calibrates the model.
     """
     resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
+    # There are as many attempts as cores: threads of neighbours' searches would wait for each other.
+    threadpool_limits(limits=1)
     try:
         return fill_problem(partial(build_model, model, {}, seed, calibration), problem, method)
     except MemoryError:
