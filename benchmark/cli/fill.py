@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from shlex import join
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -124,7 +125,8 @@ def fill(
     )
 
     def check(input_file: InputFile) -> None:
-        filling.require_fillable(input_file.request, seed)
+        with _name_file(input_file):
+            filling.require_fillable(input_file.request, seed)
         filling.require_writable(input_file, outputs[input_file.path])
 
     inputs, refused = filling.read_input_files(files, train or (), reading, entries, check)
@@ -138,6 +140,15 @@ def fill(
         console.print("interrupted; files that were filled are kept, others were not written")
         raise
     raise typer.Exit(max(codes, default=ExitCode.OK))
+
+
+@contextmanager
+def _name_file(input_file: InputFile) -> Iterator[None]:
+    """Say in errors which file they are of."""
+    try:
+        yield
+    except UsageError as error:
+        raise UsageError(f"{input_file.path}: {error}") from error
 
 
 def _explain_refusal(error: Exception, console: LiteralConsole) -> ExitCode:
@@ -160,12 +171,12 @@ def _fill_file(
     try:
         with console.status(f"{name}: comparing models") as status:
             show = status.update if console.is_terminal else _print_now_and_then(console)
-            filled = filling.fill(input_file.request, workers, effort, _make_watch(name, show))
+            with _name_file(input_file):
+                watch = _make_watch(name, show)
+                filled = filling.fill(input_file.request, workers, effort, watch)
         page = filling.compose_page(input_file, filled, _quote_command())
         filling.write(input_file, filled, outputs, reports.render_filled(page))
-    except UsageError as error:
-        return explain(UsageError(f"{input_file.path}: {error}"))
-    except (datasets.FormatError, OSError) as error:
+    except (datasets.FormatError, UsageError, OSError) as error:
         return explain(error)
     _print_result(input_file, filled, outputs, console)
     return ExitCode.NOT_REPEATABLE if filled.stopped else ExitCode.OK
