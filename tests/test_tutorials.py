@@ -8,6 +8,7 @@ import pytest
 
 TUTORIALS = sorted((Path(__file__).parents[1] / "docs" / "tutorials").glob("plot_*.py"))
 FRONT_DOORS = {
+    "mocapbench",
     "mocapbench.baselines",
     "mocapbench.benchmark",
     "mocapbench.benchmark.testing",

@@ -22,6 +22,7 @@ from mocapbench.benchmark.runs.execution.child import (
     call_in_child,
     kill_children,
 )
+from mocapbench.benchmark.runs.execution.fork_server import fork_server_without_script
 from mocapbench.benchmark.runs.execution.scratch import scratch_folder
 from mocapbench.benchmark.runs.execution.worker import load_plugins_once
 from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
@@ -85,7 +86,7 @@ class Workers:
     def __enter__(self) -> Self:
         with ExitStack() as resources:
             self._folder = resources.enter_context(scratch_folder())
-            self._pool = WorkerPool(self._count)
+            self._pool = WorkerPool(self._count, fork_server_without_script)
             self._resources = resources.pop_all()
         return self
 

@@ -1,1 +1,1 @@
-"""Filling and comparing recordings in memory, by the names that `mocapbench` itself offers."""
+"""Filling and comparing recordings in memory, as notebooks do by the names of mocapbench itself."""

@@ -42,7 +42,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
 
 def offered() -> dict[str, tuple[str, ...]]:
     """Return the names that each package offers."""
-    packages = [f"mocapbench.{name}" for name in PACKAGES]
+    packages = ["mocapbench", *(f"mocapbench.{name}" for name in PACKAGES)]
     return {package: tuple(defining_modules(package)) for package in packages}
 
 
@@ -53,7 +53,7 @@ def defining_modules(package: str) -> dict[str, str]:
     return {
         alias.name: f"{package}.{statement.module}"
         for statement in ast.parse(stub.read_text(encoding="utf-8")).body
-        if isinstance(statement, ast.ImportFrom)
+        if isinstance(statement, ast.ImportFrom) and statement.module
         for alias in statement.names
     }
 

@@ -4,12 +4,13 @@ from .benchmark.in_memory.filled import Filled
 from .benchmark.in_memory.gap_filler import GapFiller
 from .benchmark.in_memory.gap_filling import fill
 from .benchmark.in_memory.hidden_gaps import Gaps
-from .benchmark.in_memory.recording_sources import read
+from .benchmark.in_memory.recording_sources import FileRecording, read
 from .benchmark.in_memory.score_comparison import compare
 
 __version__: str
 
 __all__ = [
+    "FileRecording",
     "Filled",
     "GapFiller",
     "Gaps",

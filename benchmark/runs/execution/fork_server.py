@@ -5,17 +5,26 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from multiprocessing import forkserver, resource_tracker
 from multiprocessing.context import BaseContext, ForkServerContext, ForkServerProcess
 from multiprocessing.process import BaseProcess
+from types import ModuleType
 from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
 
-__all__ = ["SAFE_PATH", "UNGUARDED", "environment", "forget_safe_path", "fork_server"]
+__all__ = [
+    "SAFE_PATH",
+    "UNGUARDED",
+    "environment",
+    "forget_safe_path",
+    "fork_server",
+    "fork_server_without_script",
+]
 
 UNGUARDED = (
     "expected workers to start, got a script that starts the run again in each of them; put what "
@@ -52,6 +61,19 @@ class _Context(ForkServerContext):
     Process = _Process
 
 
+class _ProcessWithoutScript(_Process):
+    """A process that does not read the script which starts it."""
+
+    @staticmethod
+    def _Popen(process_obj: BaseProcess) -> Any:  # noqa: N802
+        with _hide_script():
+            return _Process._Popen(process_obj)
+
+
+class _ContextWithoutScript(ForkServerContext):
+    Process = _ProcessWithoutScript
+
+
 def fork_server() -> BaseContext:
     """Start the server unless it runs, and return the context of processes forked from it.
 
@@ -67,6 +89,27 @@ def fork_server() -> BaseContext:
     except RuntimeError:  # this process is starting itself, and reads the user's script again
         raise UsageError(UNGUARDED) from None
     return _Context()
+
+
+def fork_server_without_script() -> BaseContext:
+    """Return the context of processes that do not read the user's script, as `fork_server`.
+
+    They find nothing that the script defines. It may be a notebook or come from standard input, and
+    need not guard what it does by ``if __name__ == "__main__":``.
+    """
+    _ensure_running()
+    return _ContextWithoutScript()
+
+
+@contextmanager
+def _hide_script() -> Iterator[None]:
+    """Let `multiprocessing`, which has new processes read the main module, find an empty one."""
+    script = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = script
 
 
 def _ensure_running() -> None:

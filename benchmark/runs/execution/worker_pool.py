@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Collection
 from concurrent.futures import FIRST_COMPLETED, Future, wait
+from multiprocessing.context import BaseContext
 from typing import Any
 
 from pebble import ProcessExpired, ProcessPool
@@ -67,11 +68,13 @@ class WorkerPool:
     ----------
     n_workers : int
         How many jobs run at once.
+    start : callable, optional
+        Returns the context in which workers start.
     """
 
-    def __init__(self, n_workers: int) -> None:
+    def __init__(self, n_workers: int, start: Callable[[], BaseContext] = fork_server) -> None:
         self._pool = _Pool(
-            n_workers, max_tasks=_MOST_JOBS, context=fork_server(), initializer=prepare_worker
+            n_workers, max_tasks=_MOST_JOBS, context=start(), initializer=prepare_worker
         )
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:

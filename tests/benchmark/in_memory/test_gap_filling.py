@@ -179,3 +179,28 @@ def test_rules_say_which_model_fills_what(gappy):
     assert filled.gaps["model"].tolist() == ["linear", "makima"]
     only = mocapbench.fill(gappy, "linear", only="RKNE")
     assert only.gaps["marker"].tolist() == ["RKNE"]
+
+
+SCRIPT = """
+import numpy as np
+import mocapbench
+values = np.sin(np.arange(120.0)[:, None] / 9 + np.arange(3))
+values[50:56, 0] = np.nan
+print(mocapbench.fill(values, rate=60, effort="low", jobs=1).result.used)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("way", ["file", "standard input"])
+def test_a_script_need_not_guard_what_it_does(tmp_path, way):
+    (tmp_path / "script.py").write_text(SCRIPT)
+    words, text = (["script.py"], None) if way == "file" else (["-"], SCRIPT)
+    done = subprocess.run(
+        [sys.executable, *words],
+        input=text,
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert len(done.stdout.splitlines()) == 1, done.stdout
