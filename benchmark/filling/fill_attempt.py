@@ -88,7 +88,7 @@ def attempt_fill(
         What calibrates the model.
     """
     resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
-    # There are as many attempts as cores: threads of neighbours' searches would wait for each other.
+    # There are as many attempts as cores: more threads would wait for each other.
     threadpool_limits(limits=1)
     try:
         return fill_problem(partial(build_model, model, {}, seed, calibration), problem, method)

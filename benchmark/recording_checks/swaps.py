@@ -131,7 +131,8 @@ def _measure_speed(paths: Paths, marker: Index, frames: Index) -> Array:
     steps = paths.steps[near.clip(0, len(paths.steps) - 1), marker[:, None]]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # of markers of which none is visible
-        return np.nan_to_num(np.nanmedian(np.where(inside[..., None], steps, np.nan), axis=1))
+        medians = np.nanmedian(np.where(inside[..., None], steps, np.nan), axis=1)
+    return np.asarray(np.nan_to_num(medians))
 
 
 def _measure_usual(paths: Paths, marker: Index, last: Index, first: Index) -> Array:
