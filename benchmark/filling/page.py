@@ -11,6 +11,7 @@ from mocapbench.basics.words import format_count
 from mocapbench.benchmark.figures.stick_figures import strip
 from mocapbench.benchmark.filling.choosing.choice import Choice
 from mocapbench.benchmark.filling.choosing.kinds import Kind
+from mocapbench.benchmark.filling.faults import describe_faults, tabulate_faults
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gap_table import (
     describe_gaps,
@@ -50,7 +51,12 @@ def compose_page(input_file: InputFile, filled: FilledRecording, command: str) -
         file=input_file.path.name,
         headline=describe_fill(filled),
         verdict=tuple(describe_choice(filled)),
-        remarks=(*list_remarks(filled), *input_file.remarks),
+        remarks=(
+            *list_remarks(filled),
+            *describe_faults(input_file.faults),
+            *input_file.remarks,
+        ),
+        faults=tuple(tabulate_faults(input_file.faults)),
         curves=tuple(_cut_curves(filled, recording, shown)),
         caption=_describe_gaps(gaps, shown),
         gaps=describe_gaps(table),

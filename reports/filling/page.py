@@ -35,6 +35,8 @@ class FilledPage:
         For each kind of gap, whether the lead of a model is more than chance.
     remarks : tuple of str
         What was cut into windows, left open or shortened, and what failed.
+    faults : tuple of (str, str, str, str)
+        What is wrong at gaps: what it is, of which markers, in which frames, and how large.
     curves : tuple of FilledCurve
     caption : str
         Which gaps the curves show.
@@ -57,6 +59,7 @@ class FilledPage:
     headline: str
     verdict: tuple[str, ...]
     remarks: tuple[str, ...]
+    faults: tuple[tuple[str, str, str, str], ...]
     curves: tuple[FilledCurve, ...]
     caption: str
     gaps: pd.DataFrame

@@ -29,6 +29,7 @@ def page():
         headline="linear filled 4 entries in 1 gap.",
         verdict=("longer, deg: linear leads hold by more than chance, over 9 held-out gaps.",),
         remarks=("1 longer gap was left open.",),
+        faults=(("spikes", "KNEE", "frame 7 (0.07 s)", "40 mm"),),
         curves=(curve,),
         caption="The only gap.",
         gaps=pd.DataFrame([GAP], columns=[f"column {n}" for n in range(8)]),
@@ -43,7 +44,7 @@ def page():
 def test_the_page_says_all_that_it_is_given(page):
     text = render_filled(page)
     said = [page.headline, *page.verdict, *page.remarks, page.command, "knee.rx", *page.rankings]
-    said += ["1.25", "13.50", "error, deg", "fitted to windows", "mohgp", "took longer than 2 s"]
+    said += [*page.faults[0], "1.25", "13.50", "error, deg", "fitted to windows", "mohgp", "took longer than 2 s"]
     said += [*GAP, *page.gaps.columns, page.options, "1 gap of markers or joints"]
     assert [words for words in said if words not in text] == []
 
@@ -79,3 +80,12 @@ def test_ids_are_unique(page):
     text = render_filled(replace(page, curves=page.curves * 3))
     ids = re.findall(r'\bid="([^"]*)"', text)
     assert len(ids) == len(set(ids))
+
+
+def test_of_many_faults_twenty_are_listed_and_all_are_counted(page):
+    faults = tuple(("spikes", f"M{k}.", "frame 7 (0.07 s)", "40 mm") for k in range(30))
+    text = render_filled(replace(page, faults=faults))
+    assert "20 of 30" in text
+    assert "M19." in text
+    assert "M20." not in text
+    assert "What is wrong at gaps" not in render_filled(replace(page, faults=()))
