@@ -18,7 +18,7 @@ from rich.table import Column, Table
 from mocapbench import benchmark as bench
 from mocapbench import datasets, reports
 from mocapbench.basics.words import format_count
-from mocapbench.benchmark import filling
+from mocapbench.benchmark import filling, recording_checks
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.failures import explain
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
@@ -102,12 +102,16 @@ def fill(
             help="What marks missing values where motion cannot tell: zeros, held, a number, none."
         ),
     ] = None,
+    hide_spikes: Annotated[
+        bool, typer.Option("--hide-spikes", help="Hide spikes first, and fill them as gaps.")
+    ] = False,
     plugin: Plugins = None,
 ) -> None:
     """Fill the gaps of your own recordings.
 
     Each file is written in its own format, with a table of every filled entry and a page that
-    shows them.
+    shows them. Spikes, jumps, swaps and odd segments beside gaps are said, as in mocapbench
+    inspect.
     """
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
@@ -121,7 +125,11 @@ def fill(
         filling.split_names(only or ()),
     )
     reading = bench.Reading(
-        rate, min_likelihood, insert_missing, bench.choose_missing_rule(missing)
+        rate,
+        min_likelihood,
+        insert_missing,
+        bench.choose_missing_rule(missing),
+        recording_checks.tell_spikes if hide_spikes else None,
     )
 
     def check(input_file: InputFile) -> None:
@@ -211,6 +219,7 @@ def _print_result(
         filling.describe_fill(filled),
         *filling.describe_choice(filled),
         *filling.list_remarks(filled),
+        *filling.describe_faults(input_file.faults),
         *input_file.remarks,
     )
     for text in sentences:

@@ -1,4 +1,5 @@
 from .choosing.choice import EFFORTS
+from .faults import describe_faults
 from .filled_recording import FilledRecording, fill, require_fillable
 from .gap_table import describe_gaps, describe_options, sort_by_caution, tabulate_gaps
 from .input_files import InputFile, read_input_files
@@ -20,6 +21,7 @@ __all__ = [
     "Workers",
     "compose_page",
     "describe_choice",
+    "describe_faults",
     "describe_fill",
     "describe_gaps",
     "describe_options",

@@ -14,6 +14,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import ENTRIES, GAPS, require_short_names, require_writable_folder
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gap_table import tabulate_gaps
+from mocapbench.benchmark.filling.gaps import Gap, mask_gaps
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.datasets import FrameByChannel
 from mocapbench.reports import csv_text
@@ -114,7 +115,7 @@ def write(input_file: InputFile, filled: FilledRecording, outputs: OutputPaths, 
         input_file.format.write(
             copy_path, filled.recording, like=input_file.path, replaced=filled.request.target
         )
-        write_text(entries_path, csv_text(tabulate_entries(filled)))
+        write_text(entries_path, csv_text(tabulate_entries(filled, input_file.spikes)))
         write_text(gaps_path, csv_text(tabulate_gaps(filled)))
         write_text(page_path, page)
     except BaseException:
@@ -123,12 +124,13 @@ def write(input_file: InputFile, filled: FilledRecording, outputs: OutputPaths, 
         raise
 
 
-def tabulate_entries(filled: FilledRecording) -> pd.DataFrame:
+def tabulate_entries(filled: FilledRecording, spikes: Sequence[Gap]) -> pd.DataFrame:
     """Return a row per filled entry, by frame.
 
     Columns ``frame`` (0-based), ``time`` in seconds, ``channel``, ``unit``, ``mean``, ``sd``,
-    which is empty where the model has no predictive distribution, and ``model``. Angles are
-    unwrapped: they go on from those beside the gap, where the file may have them 360° away.
+    which is empty where the model has no predictive distribution, ``model``, and ``spike``: 1 where
+    the file has a value that was hidden as one, else 0. Angles are unwrapped: they go on from those
+    beside the gap, where the file may have them 360° away.
     """
     given = filled.request.given
     frames, channels = np.nonzero(filled.request.target)
@@ -141,5 +143,6 @@ def tabulate_entries(filled: FilledRecording) -> pd.DataFrame:
             "mean": filled.prediction.mean,
             "sd": filled.std,
             "model": filled.models,
+            "spike": mask_gaps(spikes, given.values.shape)[frames, channels].astype(int),
         }
     )
