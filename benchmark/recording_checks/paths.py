@@ -101,12 +101,15 @@ def find_channel_paths(recording: Recording) -> Paths:
     places = marker_places(recording.channels, recording.units)
     kept = np.setdiff1d(np.arange(len(recording.channels)), places)
     values = recording.values[:, kept]
-    spreads = [_measure_spread(column[~np.isnan(column)]) for column in values.T]
-    least = [_LEAST_ANGLES.get(recording.units[place], 0.0) for place in kept]
+    units = [recording.units[place] for place in kept]
+    least_leaps = [
+        _choose_least_leap(column[~np.isnan(column)], _LEAST_ANGLES.get(unit, 0.0))
+        for column, unit in zip(values.T, units, strict=True)
+    ]
     return Paths(
         tuple(recording.channels[place] for place in kept),
         values[:, :, np.newaxis],
-        np.maximum(_SHARE_OF_CHANNEL * np.array(spreads), least),
+        np.array(least_leaps, dtype=np.float64),
         frame_rate(recording),
         mask_missing_rows(recording.times),
     )
@@ -130,6 +133,11 @@ def measure_extent(positions: Array) -> float:
     return float(np.median(np.linalg.norm(high - low, axis=1)))
 
 
-def _measure_spread(values: Array) -> float:
-    """Return how far apart most values (K,) are, which does not depend on a few in spikes."""
-    return float(np.diff(np.quantile(values, _MOST))[0]) if len(values) else 0.0
+def _choose_least_leap(values: Array, least: float) -> float:
+    """Return the least leap of a channel by how far apart most of its values (K,) are.
+
+    A channel that stays the same in most steps, as a switch or a constant does, has no leaps.
+    """
+    if len(values) < _STEPS or np.median(np.abs(np.diff(values))) == 0.0:
+        return np.inf
+    return max(least, _SHARE_OF_CHANNEL * float(np.diff(np.quantile(values, _MOST))[0]))

@@ -104,6 +104,15 @@ def test_a_file_of_angles_has_spikes_of_channels_and_no_segments(cli, tmp_path):
     assert (check["markers"], check["others"]) == ([], ["knee.rx", "hip.rx"])
 
 
+def test_switches_and_constants_have_no_leaps(cli, tmp_path):
+    rng = np.random.default_rng(0)
+    values = np.stack([rng.random(300) < 0.1, np.arange(300) > 150, np.full(300, 4.25)], axis=1)
+    path = write_table(tmp_path / "switches.csv", ["contact", "phase", "mass"], values * 1.0)
+    assert cli("inspect", path, "--json") == 0
+    (check,) = parse(cli.printed)
+    assert (check["others"], check["findings"]) == (["contact", "phase", "mass"], [])
+
+
 @pytest.mark.parametrize("mark", [0.0, 9999999.0])
 def test_values_that_mark_missing_ones_are_found_where_they_are(cli, tmp_path, mark):
     times = np.arange(300)[:, None] / 100
