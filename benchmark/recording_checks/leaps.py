@@ -15,7 +15,7 @@ import pandas as pd
 from mocapbench.basics.arrays import Array, Mask
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
-from mocapbench.benchmark.recording_checks.paths import Paths
+from mocapbench.benchmark.recording_checks.paths import MotionPaths
 
 __all__ = ["find_leaps", "find_spikes"]
 
@@ -29,12 +29,12 @@ _LONE, _LONE_FLOOR = 2.0, 2.5
 leap: in a blow or a landing several differ in a row."""
 
 
-def find_spikes(paths: Paths) -> pd.DataFrame:
+def find_spikes(paths: MotionPaths) -> pd.DataFrame:
     """Return the spikes of markers or channels, and their jumps, which are leaps without return.
 
     Parameters
     ----------
-    paths : Paths
+    paths : MotionPaths
 
     Returns
     -------
@@ -55,7 +55,7 @@ def find_spikes(paths: Paths) -> pd.DataFrame:
     return tabulate_findings(rows)
 
 
-def find_leaps(paths: Paths, beyond: float) -> Mask:
+def find_leaps(paths: MotionPaths, beyond: float) -> Mask:
     """Return which steps (N - 1, M) exceed the median by so many times what is usual."""
     sizes = np.linalg.norm(paths.excess, axis=2)
     return np.asarray(sizes > np.maximum(beyond * paths.usual_excess, paths.least_leaps))

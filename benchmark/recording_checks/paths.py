@@ -13,7 +13,7 @@ from mocapbench.basics.arrays import Array, Mask
 from mocapbench.datasets import Recording, frame_rate
 
 __all__ = [
-    "Paths",
+    "MotionPaths",
     "find_channel_paths",
     "find_marker_paths",
     "mask_missing_rows",
@@ -37,7 +37,7 @@ _MOST = 0.1, 0.9
 
 
 @dataclass(frozen=True, eq=False)
-class Paths:
+class MotionPaths:
     """The paths of M markers, joints or other channels in N frames.
 
     Parameters
@@ -85,7 +85,7 @@ class Paths:
         return np.asarray(rolling.quantile(_QUANTILE))
 
 
-def find_marker_paths(recording: Recording) -> Paths:
+def find_marker_paths(recording: Recording) -> MotionPaths:
     """Return the paths of the markers of a recording."""
     names = tuple(markers_of(recording.channels, recording.units))
     positions = recording.values[:, marker_places(recording.channels, recording.units)]
@@ -93,10 +93,10 @@ def find_marker_paths(recording: Recording) -> Paths:
     positions = np.where(hidden, np.nan, positions)
     least_leaps = np.full(len(names), _SHARE * measure_extent(positions))
     missing = mask_missing_rows(recording.times)
-    return Paths(names, positions, least_leaps, frame_rate(recording), missing)
+    return MotionPaths(names, positions, least_leaps, frame_rate(recording), missing)
 
 
-def find_channel_paths(recording: Recording) -> Paths:
+def find_channel_paths(recording: Recording) -> MotionPaths:
     """Return the paths of the channels that are of no marker, such as angles."""
     places = marker_places(recording.channels, recording.units)
     kept = np.setdiff1d(np.arange(len(recording.channels)), places)
@@ -106,7 +106,7 @@ def find_channel_paths(recording: Recording) -> Paths:
         _choose_least_leap(column[~np.isnan(column)], _LEAST_ANGLES.get(unit, 0.0))
         for column, unit in zip(values.T, units, strict=True)
     ]
-    return Paths(
+    return MotionPaths(
         tuple(recording.channels[place] for place in kept),
         values[:, :, np.newaxis],
         np.array(least_leaps, dtype=np.float64),

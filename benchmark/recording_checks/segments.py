@@ -10,7 +10,7 @@ import pandas as pd
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
-from mocapbench.benchmark.recording_checks.paths import Paths, measure_extent
+from mocapbench.benchmark.recording_checks.paths import MotionPaths, measure_extent
 
 __all__ = ["find_segment_jumps"]
 
@@ -25,7 +25,7 @@ _FEWEST = 30
 """Frames in which both markers are seen, at least, to tell whether they are a segment."""
 
 
-def find_segment_jumps(paths: Paths) -> pd.DataFrame:
+def find_segment_jumps(paths: MotionPaths) -> pd.DataFrame:
     """Return in which frames the length of a segment is not what it is in most others.
 
     A segment is a marker and the one whose distance from it varies least.

@@ -18,7 +18,7 @@ from mocapbench.basics.arrays import Array, Index
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
 from mocapbench.benchmark.recording_checks.leaps import find_leaps
-from mocapbench.benchmark.recording_checks.paths import Paths, measure_extent
+from mocapbench.benchmark.recording_checks.paths import MotionPaths, measure_extent
 
 __all__ = ["find_swaps"]
 
@@ -44,12 +44,12 @@ Breaks = tuple[Index, Index, Index]
 """Of each of K leaps and gaps, the marker, the last frame before it and the first after it."""
 
 
-def find_swaps(paths: Paths) -> pd.DataFrame:
+def find_swaps(paths: MotionPaths) -> pd.DataFrame:
     """Return where two markers trade places, from one frame to the next or across gaps.
 
     Parameters
     ----------
-    paths : Paths
+    paths : MotionPaths
 
     Returns
     -------
@@ -70,7 +70,7 @@ def find_swaps(paths: Paths) -> pd.DataFrame:
     return tabulate_findings(rows)
 
 
-def _find_trades(paths: Paths) -> Iterator[tuple[int, int, int, float]]:
+def _find_trades(paths: MotionPaths) -> Iterator[tuple[int, int, int, float]]:
     """Yield which two markers trade places, the first frame after it, and how far apart."""
     breaks = _find_breaks(paths)
     marker, _, first = breaks
@@ -87,7 +87,9 @@ def _find_trades(paths: Paths) -> Iterator[tuple[int, int, int, float]]:
             yield a, b, int(max(first[one[k]], first[other[k]])), float(sizes[k])
 
 
-def _compare_misses(paths: Paths, breaks: Breaks, one: Index, other: Index, usual: Array) -> Array:
+def _compare_misses(
+    paths: MotionPaths, breaks: Breaks, one: Index, other: Index, usual: Array
+) -> Array:
     """Return how much better K paths go on after the breaks of others than after their own."""
     marker, last, first = breaks
     before, after = (marker[one], last[one]), (marker[other], first[other])
@@ -105,7 +107,9 @@ def _compare_misses(paths: Paths, breaks: Breaks, one: Index, other: Index, usua
     return np.asarray(gains[:, 0] + total / np.maximum(count, 1))
 
 
-def _measure_misses(paths: Paths, one: Index, last: Index, other: Index, first: Index) -> Array:
+def _measure_misses(
+    paths: MotionPaths, one: Index, last: Index, other: Index, first: Index
+) -> Array:
     """Return how badly markers' paths until frames go on as those of others from frames on.
 
     Of each of K, how far the second is from where the first was going, and then by how much their
@@ -119,12 +123,12 @@ def _measure_misses(paths: Paths, one: Index, last: Index, other: Index, first: 
     return np.column_stack([off, change])
 
 
-def _measure_distances(paths: Paths, places: Array, frames: Index) -> Array:
+def _measure_distances(paths: MotionPaths, places: Array, frames: Index) -> Array:
     """Return how far each of K places is from M markers in a frame each (K, M)."""
     return np.asarray(np.linalg.norm(paths.positions[frames] - places[:, None], axis=2))
 
 
-def _measure_speed(paths: Paths, marker: Index, frames: Index) -> Array:
+def _measure_speed(paths: MotionPaths, marker: Index, frames: Index) -> Array:
     """Return the median (K, 3) of few steps from a frame on; 0 where none of them is visible."""
     near = frames[:, None] + np.arange(_NEAR)
     inside = (near >= 0) & (near < len(paths.steps))
@@ -135,7 +139,7 @@ def _measure_speed(paths: Paths, marker: Index, frames: Index) -> Array:
     return np.asarray(np.nan_to_num(medians))
 
 
-def _measure_usual(paths: Paths, marker: Index, last: Index, first: Index) -> Array:
+def _measure_usual(paths: MotionPaths, marker: Index, last: Index, first: Index) -> Array:
     """Return what is usual of the misses of each of K markers over as many frames (K, 1 + M).
 
     Close numbers of frames count as one, so that little is measured twice.
@@ -164,7 +168,7 @@ def _take_quantile(values: Array, quantile: float) -> Array:
     return np.asarray(np.sort(values, axis=0)[place, np.arange(values.shape[1])])
 
 
-def _find_breaks(paths: Paths) -> Breaks:
+def _find_breaks(paths: MotionPaths) -> Breaks:
     """Return leaps and inner gaps: the marker, the last frame before and the first after, by it."""
     leaps = find_leaps(paths, _BEYOND)
     breaks = [(marker, step, step + 1) for step, marker in np.argwhere(leaps).tolist()]
