@@ -44,7 +44,15 @@ def page():
 def test_the_page_says_all_that_it_is_given(page):
     text = render_filled(page)
     said = [page.headline, *page.verdict, *page.remarks, page.command, "knee.rx", *page.rankings]
-    said += [*page.faults[0], "1.25", "13.50", "error, deg", "fitted to windows", "mohgp", "took longer than 2 s"]
+    said += [
+        *page.faults[0],
+        "1.25",
+        "13.50",
+        "error, deg",
+        "fitted to windows",
+        "mohgp",
+        "took longer than 2 s",
+    ]
     said += [*GAP, *page.gaps.columns, page.options, "1 gap of markers or joints"]
     assert [words for words in said if words not in text] == []
 
