@@ -51,8 +51,8 @@ def inspect(
     seconds, size and unit; a file that cannot be read has file and error. The exit code is 0 if all
     files can be read, whatever is found, and else 2.
 
-    Found are 69 to 82 % of planted spikes of 20 mm, 96 % of 50 mm and 99 % of 200 mm; all swaps
-    from one frame to the next, and 93 % of near markers in gaps of 0.1 to 0.4 s. A minute, 11
+    Found are 69 to 82 % of planted spikes of 20 mm, 96 % of 50 mm and 99 % of 200 mm; 99 % of
+    swaps of near joints from one frame to the next, and 90 % in gaps of 0.1 to 0.4 s. A minute, 11
     spikes, 3 jumps and 12 segments are found in CMU's 135_02, and 22 spikes and 32 jumps in joints
     of CMU's skeletons, without hands and feet 15 and 6. Which of these are faults of the recordings
     is not known.
