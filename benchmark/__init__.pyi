@@ -40,7 +40,7 @@ from .problems.masks import hide_all_but, hide_frames, hide_runs
 from .problems.recover import RecoverProblem
 from .problems.synthesise import SynthesiseProblem
 from .problems.unit import Unit
-from .reading import Reading
+from .recording_checks.reading import Reading
 from .registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
 from .results.bundle import bundle
 from .results.drawn import last_drawn, stamp

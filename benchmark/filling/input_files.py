@@ -14,7 +14,7 @@ from mocapbench.benchmark.filling.faults import Fault, find_faults_at_gaps
 from mocapbench.benchmark.filling.gaps import Gap, find_gaps
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
-from mocapbench.benchmark.reading import Reading
+from mocapbench.benchmark.recording_checks.reading import Reading
 from mocapbench.datasets import Format, FormatError, Recording, check_alike
 from mocapbench.datasets.formats.strays import find_unmeasured
 

@@ -18,7 +18,7 @@ from mocapbench.benchmark.in_memory.arguments import translate_errors
 from mocapbench.benchmark.in_memory.movement import read_movement
 from mocapbench.benchmark.in_memory.tables import read_frame
 from mocapbench.benchmark.missing_values import choose_missing_rule
-from mocapbench.benchmark.reading import Reading
+from mocapbench.benchmark.recording_checks.reading import Reading
 from mocapbench.datasets import Format, Recording, unwrap_angles
 
 __all__ = ["FileRecording", "read"]

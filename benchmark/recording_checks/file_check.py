@@ -12,11 +12,11 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.baselines.common.markers import markers_of
-from mocapbench.benchmark.reading import Reading
 from mocapbench.benchmark.recording_checks.findings_table import unite_findings
 from mocapbench.benchmark.recording_checks.leaps import find_spikes
 from mocapbench.benchmark.recording_checks.marks import find_marks
 from mocapbench.benchmark.recording_checks.paths import find_channel_paths, find_marker_paths
+from mocapbench.benchmark.recording_checks.reading import Reading
 from mocapbench.benchmark.recording_checks.segments import find_segment_jumps
 from mocapbench.benchmark.recording_checks.swaps import find_swaps
 from mocapbench.benchmark.recording_checks.visibility import (
