@@ -92,7 +92,8 @@ def _join(lines: Sequence[str]) -> str:
 
 def _plain(line: str) -> str:
     """Return a line without its end, and without quotes and blanks around its cells."""
-    return _AROUND.sub(r"\1", line.strip(' "\r\n'))
+    bare = line.strip(' "\r\n')
+    return _AROUND.sub(r"\1", bare) if " " in bare or '"' in bare else bare  # rows are long
 
 
 def _end_of_rows(lines: Sequence[str], start: int, stop: int, labels: Sequence[Label]) -> int:
