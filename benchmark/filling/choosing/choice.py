@@ -34,7 +34,8 @@ each 100,000 entries of the recording."""
 _PER_ENTRIES = 100_000
 _WITHIN_95 = float(ndtri(0.975))
 _CHECKED = 3
-"""Hold-outs filled again with intervals, the first ones: calibration takes several times longer."""
+"""Hold-outs filled again with intervals, besides the first with each kind of gap: calibration takes
+several times longer."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,7 +183,7 @@ def check_intervals(choice: Choice, workers: FillBackend) -> dict[Kind, Mask]:
     Of a model of which that would take more work, nothing is checked.
     """
     firsts = {kind: one.order[0] for kind, one in choice.rankings.items()}
-    checked = choice.hold_outs[:_CHECKED]
+    checked = _find_to_check(choice.hold_outs)
     futures = {}
     for model in sorted({*firsts.values()} & choice.with_intervals):
         seconds = [predict_calibrated_seconds(model, one.problem) for one in checked]
@@ -196,6 +197,18 @@ def check_intervals(choice: Choice, workers: FillBackend) -> dict[Kind, Mask]:
             if firsts[kind] == model:
                 inside.setdefault(kind, []).append(entries)
     return {kind: np.concatenate(each) for kind, each in inside.items()}
+
+
+def _find_to_check(hold_outs: Sequence[HoldOut]) -> list[HoldOut]:
+    """Return the first hold-outs, and others that have the first gaps of a kind."""
+    found: list[HoldOut] = []
+    seen: set[Kind] = set()
+    for hold_out in hold_outs:
+        kinds = {gap.kind for gap in hold_out.gaps}
+        if len(found) < _CHECKED or not kinds <= seen:
+            found.append(hold_out)
+            seen |= kinds
+    return found
 
 
 def _list_entries_inside(hold_out: HoldOut, attempt: FillAttempt) -> Iterator[tuple[Kind, Mask]]:

@@ -29,7 +29,7 @@ __all__ = ["Contender", "rank_by_kind", "run_rungs"]
 
 _RUNGS = (2, 4, 8, 16)
 """After how many hold-outs models are compared, before they have filled all."""
-_AT_FIRST = 0.5
+_AT_FIRST = 0.75
 """Of the work, what the first hold-outs of all models may take."""
 
 
