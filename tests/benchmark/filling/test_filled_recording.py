@@ -132,7 +132,8 @@ OWN = {
 @pytest.fixture
 def only(monkeypatch):
     """Return a function that leaves a few models to choose from, which take little work."""
-    monkeypatch.setattr(halving, "predict_seconds", lambda *_: 0.01)
+    for module in (choice, halving):
+        monkeypatch.setattr(module, "predict_seconds", lambda *_: 0.01)
     monkeypatch.setattr(choice, "predict_calibrated_seconds", lambda *_: 0.03)
     monkeypatch.setattr(hold_outs, "MOST_HOLD_OUTS", 4)
     for name, model in OWN.items():
@@ -279,6 +280,20 @@ def test_room_is_looked_for_in_the_problem_that_is_filled(monkeypatch):
     for channels in (tuple(SPEEDS), tuple(SPEEDS)[::-1]):
         require_fillable(make_request(channels), 0)
     assert looked[0].given.channels == looked[1].given.channels
+
+
+def test_intervals_are_calibrated_unless_that_takes_more_work_than_is_allowed(only, monkeypatch):
+    """A chosen model then fills uncalibrated, and one that is named is calibrated at any price."""
+    only("linear")
+    for seconds, method in ((0.1, "impute"), (1e9, "impute_uncalibrated")):
+        monkeypatch.setattr(
+            filled_recording, "predict_calibrated_seconds", lambda *_, seconds=seconds: seconds
+        )
+        workers = Here()
+        fill_here(make_request(), workers)
+        assert workers.submitted[-1][-1] == method
+        fill_here(make_request(models="linear"), workers)
+        assert workers.submitted[-1][-1] == "impute"
 
 
 class FailsOnTheFile(Here):

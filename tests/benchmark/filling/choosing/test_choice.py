@@ -44,7 +44,8 @@ class Intervals(Imputer):
 @pytest.fixture
 def only(monkeypatch):
     """Return a function that leaves a few models to choose from, which take little work."""
-    monkeypatch.setattr(halving, "predict_seconds", lambda *_: 0.01)
+    for module in (choice, halving):
+        monkeypatch.setattr(module, "predict_seconds", lambda *_: 0.01)
     monkeypatch.setattr(choice, "predict_calibrated_seconds", lambda *_: 0.03)
     MODELS.add("remembers", Remembers)
     MODELS.add("intervals", Intervals)
@@ -153,9 +154,7 @@ def test_models_that_take_too_much_work_to_fill_the_file_are_left_out_beforehand
     waves, hidden, monkeypatch, effort, dear
 ):
     seconds = {"linear": 5.0, "remembers": 100.0}
-    monkeypatch.setattr(
-        choice, "predict_calibrated_seconds", lambda model, _: seconds.get(model, 0.1)
-    )
+    monkeypatch.setattr(choice, "predict_seconds", lambda model, _: seconds.get(model, 0.1))
     mask, workers = hidden((50, 58, [0])), Here()
     chosen = choose_for(GapProblem(waves().hide(mask), mask), workers, effort)
     assert chosen.too_dear == dear
@@ -165,7 +164,7 @@ def test_models_that_take_too_much_work_to_fill_the_file_are_left_out_beforehand
 
 @pytest.mark.usefixtures("few_models")
 def test_if_every_model_takes_too_much_work_more_effort_is_advised(waves, hidden, monkeypatch):
-    monkeypatch.setattr(choice, "predict_calibrated_seconds", lambda *_: 1e9)
+    monkeypatch.setattr(choice, "predict_seconds", lambda *_: 1e9)
     mask = hidden((50, 58, [0]))
     with pytest.raises(UsageError, match="raise --effort, or name a model with --model: hold"):
         choose_for(GapProblem(waves().hide(mask), mask))
