@@ -1,6 +1,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -75,8 +76,9 @@ def test_one_problem_has_one_arrangement(seed, channels, trained, names):
         np.testing.assert_array_equal(first.times, second.times)
 
 
-def test_when_a_recording_to_learn_from_began_does_not_matter():
-    problem = make_problem(0)
+@pytest.mark.parametrize("seed", range(8))
+def test_when_a_recording_to_learn_from_began_does_not_matter(seed):
+    problem = make_problem(seed)
     later = tuple(
         replace(one, times=one.times + 128.0 * n) for n, one in enumerate(problem.train[::-1])
     )

@@ -116,6 +116,20 @@ def test_no_gap_is_shortened_that_fits_once_another_hold_out_has_the_room():
         assert {len(gap.copy) for gap in list_gaps(hold_outs)} == {8, 30}
 
 
+def test_a_gap_that_does_not_fit_beside_another_waits_for_the_next_hold_out():
+    """Frames 40 to 70 alone are visible, in which a long gap fits if no short one is in between."""
+    target = np.zeros((N_FRAMES, 2), dtype=bool)
+    target[100:118, 0] = target[150:158, 1] = True
+    hidden = target.copy()
+    hidden[:40] = hidden[70:] = True
+    values = np.arange(2.0 * N_FRAMES).reshape(N_FRAMES, 2)
+    whole = Recording("r", np.arange(N_FRAMES) / 10, values, ("a", "b"), ("", ""))
+    for seed in range(10):
+        asked = GapProblem(whole.hide(hidden), target)
+        hold_outs = make_hold_outs(asked, np.random.default_rng(seed))
+        assert {len(gap.copy) for gap in list_gaps(hold_outs)} == {8, 18}
+
+
 @settings(deadline=None)
 @given(BLOCKS)
 def test_gaps_at_the_ends_are_held_out_only_where_there_are_no_others(blocks):
