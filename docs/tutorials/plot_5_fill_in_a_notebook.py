@@ -57,7 +57,7 @@ filled.gaps[["marker", "first", "last", "model", "error", "caution"]]
 
 # %%
 # **Look at** the blue line beside the dashed one, which is the truth
-# and which no model has seen, and at whether the band holds it.
+# and which no model has seen, and at whether the interval holds it.
 
 filled = mocapbench.fill(walk, "channel-kriging")
 axes = filled.plot("ltibia", truth=mocapbench.read(truth))

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mocapbench.basics.arrays import Index
-from mocapbench.basics.mask_runs import free_starts
+from mocapbench.basics.mask_runs import MOST_HIDDEN, free_starts
 from mocapbench.benchmark.filling.gaps import Episode, Gap
 from mocapbench.datasets import Mask
 
@@ -19,8 +19,6 @@ __all__ = ["EpisodeLayout", "EpisodeQueue"]
 
 _SHARES = (1.0, 0.5, 0.25, 0.125)
 """By which gaps are shortened that fit nowhere."""
-MOST_HIDDEN = 0.25
-"""Of the frames, the share that copies in a hold-out hide, unless one alone is longer."""
 COPIES = 10
 """Episodes in a hold-out, where there is room for so many."""
 
