@@ -129,12 +129,17 @@ def test_rows_are_named_by_marker_joint_or_channels():
 
 
 def test_the_rules_of_a_row_name_its_entries_and_no_others():
-    names = ("A*.x", "A*.y", "A*.z", "AB.x", "AB.y", "AB.z", "it, too:1-2.x", "it's.rx")
-    recording, mask = record_waves(channels=names), hide(*GAPS)
+    names = (
+        *("A*.x", "A*.y", "A*.z", "AB.x", "AB.y", "AB.z"),
+        *("it's, 1:2-3.rx", "it's, 1:2-3.ty"),
+    )
+    units = (*UNITS[:6], "deg", "cm")
+    recording, mask = record_waves(channels=names, units=units), hide(*GAPS)
     filled = fill_with(recording, mask)
     table = tabulate_gaps(filled)
     options = [shlex.split(option) for option in describe_gaps(table)["leave it open by"]]
     assert options == [["--leave", rules] for rules in table["leave"]]
+    assert table["leave"][0] == "A[*]:50-59"
     for row in table.itertuples():
         left = np.zeros(mask.shape, dtype=bool)
         for rule in row.leave.split(","):
@@ -220,6 +225,8 @@ def test_a_gap_longer_than_its_copies_is_doubtful():
     assert f"longer than any held-out gap of its kind ({longest} frames)" in row.caution
     lacking = replace(filled, choice=replace(filled.choice, hold_outs=(), rankings={}))
     assert "no held-out gap of its kind" in tabulate_gaps(lacking)["caution"][0]
+    as_long = fill_with(record_waves(), hide((100, 120, [0, 1, 2])), choose=choose_by_chance)
+    assert tabulate_gaps(as_long)["caution"].tolist() == [""]
 
 
 def test_gaps_with_most_cautions_come_first_and_of_these_the_longest():
