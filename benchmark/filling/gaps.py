@@ -13,7 +13,6 @@ from typing import Self
 
 import numpy as np
 
-from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.datasets import Mask
 
 __all__ = ["Episode", "Gap", "count_entries", "find_gaps", "group_gaps", "mask_ends", "mask_gaps"]
@@ -98,9 +97,10 @@ def count_entries(gaps: Iterable[Gap]) -> int:
 def find_gaps(hidden: Mask) -> tuple[Gap, ...]:
     """Return the gaps of a mask (N, D), by their first frame; together they are the mask."""
     alike: dict[tuple[int, int], list[int]] = defaultdict(list)
-    for channel, column in enumerate(hidden.T):
-        for start, stop in run_bounds(column).tolist():
-            alike[start, stop].append(channel)
+    # All channels at once: a recording may have hundreds, of which few have gaps.
+    channels, edges = np.nonzero(np.diff(hidden.T, axis=1, prepend=False, append=False))
+    for channel, (start, stop) in zip(channels[::2].tolist(), edges.reshape(-1, 2), strict=True):
+        alike[int(start), int(stop)].append(channel)
     return tuple(Gap(start, stop, tuple(alike[start, stop])) for start, stop in sorted(alike))
 
 
