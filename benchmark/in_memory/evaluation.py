@@ -22,7 +22,7 @@ from mocapbench.benchmark.in_memory.arguments import translate_errors
 from mocapbench.benchmark.in_memory.gap_filling import solve_request
 from mocapbench.benchmark.in_memory.hidden_gaps import Gaps
 from mocapbench.benchmark.in_memory.own_models import ModelLike, name_model
-from mocapbench.benchmark.in_memory.recording_sources import read
+from mocapbench.benchmark.in_memory.recording_inputs import read
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.evaluate import score_by

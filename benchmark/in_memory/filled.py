@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from pathlib import Path
@@ -32,7 +31,6 @@ _SHOWN = 20
 _RANKING = ("kind", "model", "error", "unit", "chosen", "may_be_chance", "n_gaps")
 
 
-@dataclass(frozen=True, eq=False, repr=False)
 class Filled:
     """A recording whose gaps are filled, and how sure each filled value is.
 
@@ -44,8 +42,8 @@ class Filled:
         What the engine says of it.
     """
 
-    given: Recording
-    result: FilledRecording
+    def __init__(self, given: Recording, result: FilledRecording) -> None:
+        self.given, self.result = given, result
 
     @cached_property
     def recording(self) -> Recording:

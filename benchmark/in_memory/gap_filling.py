@@ -16,7 +16,7 @@ from mocapbench.benchmark.in_memory.arguments import translate_errors
 from mocapbench.benchmark.in_memory.filled import Filled
 from mocapbench.benchmark.in_memory.own_models import ModelLike, lend_models, name_model
 from mocapbench.benchmark.in_memory.progress_bar import show_progress
-from mocapbench.benchmark.in_memory.recording_sources import read
+from mocapbench.benchmark.in_memory.recording_inputs import read
 from mocapbench.benchmark.in_memory.this_process import ThisProcess
 from mocapbench.benchmark.runs.machine import n_cores
 

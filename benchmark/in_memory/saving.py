@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from mocapbench.basics.whole_files import write_text
-from mocapbench.benchmark.in_memory.recording_sources import FileRecording
+from mocapbench.benchmark.in_memory.recording_inputs import FileRecording
 from mocapbench.datasets import Mask, Recording
 from mocapbench.reports import csv_text
 

@@ -4,7 +4,7 @@ from .benchmark.in_memory.filled import Filled
 from .benchmark.in_memory.gap_filler import GapFiller
 from .benchmark.in_memory.gap_filling import fill
 from .benchmark.in_memory.hidden_gaps import Gaps
-from .benchmark.in_memory.recording_sources import FileRecording, read
+from .benchmark.in_memory.recording_inputs import FileRecording, read
 from .benchmark.in_memory.score_comparison import compare
 
 __version__: str

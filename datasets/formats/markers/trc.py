@@ -8,7 +8,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from mocapbench.datasets.formats.errors import FormatError, FormatWarning
@@ -33,7 +33,6 @@ _DIALECT = Dialect(program="TRC", sign="")
 _FRAME, _TIME = range(LEADING)
 
 
-@dataclass(frozen=True)
 class TRCFormat(TableFormat):
     """Positions of markers (.trc), as OpenSim, Cortex, Mokka and people write them.
 

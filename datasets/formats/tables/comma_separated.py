@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from mocapbench.datasets.formats.tables.sheet import Sheet, read_sheet
@@ -11,7 +10,6 @@ from mocapbench.datasets.formats.tables.table_format import TableFormat
 __all__ = ["CSVFormat"]
 
 
-@dataclass(frozen=True)
 class CSVFormat(TableFormat):
     r"""Tables of text (.csv, .tsv, .mot, .sto): a row a frame, a column for each channel.
 
