@@ -18,6 +18,7 @@ from mocapbench.benchmark.in_memory.arguments import translate_errors
 from mocapbench.benchmark.in_memory.movement import read_movement
 from mocapbench.benchmark.in_memory.tables import read_frame
 from mocapbench.benchmark.missing_values import choose_missing_rule
+from mocapbench.benchmark.recording_checks.hidden_spikes import tell_spikes
 from mocapbench.benchmark.recording_checks.reading import Reading
 from mocapbench.datasets import Format, Recording, unwrap_angles
 
@@ -62,8 +63,8 @@ def read(source: Any, **options: Any) -> Recording:
         dimensions time, space, keypoints and, if there are several, individuals. NaN marks what is
         hidden.
     **options
-        Of a file: ``rate`` in frames per second, ``min_likelihood``, ``insert_missing`` and
-        ``missing``, as ``mocapbench fill`` has them. Of a table: ``rate``, ``name`` and
+        Of a file: ``rate`` in frames per second, ``min_likelihood``, ``insert_missing``,
+        ``missing`` and ``hide_spikes``, as ``mocapbench fill`` has them. Of a table: ``rate``, ``name`` and
         ``min_likelihood``. Of an array: ``rate``, which it needs, ``names`` and ``units`` of its
         channels, and ``name``. Of a dataset: ``rate``, ``name`` and ``min_likelihood``, of its
         confidence.
@@ -154,11 +155,16 @@ def _read_file(
     min_likelihood: float | None = None,
     insert_missing: bool = False,
     missing: str | float | None = None,
+    hide_spikes: bool = False,
 ) -> FileRecording:
     path = Path(source)
     rule = choose_missing_rule(None if missing is None else str(missing))
-    reading = Reading(rate, min_likelihood, insert_missing, rule)
+    spike_rule = tell_spikes if hide_spikes else None
+    reading = Reading(rate, min_likelihood, insert_missing, rule, spike_rule)
     recording, remarks = reading.read(path)
+    results = format_for(path).results(path, recording.channels)
+    spikes, said_of_spikes = reading.find_spikes(recording, results)
+    recording = recording.hide(spikes)
     return FileRecording(
         str(path),
         recording.times,
@@ -167,8 +173,8 @@ def _read_file(
         recording.units,
         path=path,
         format=reading.format_of(path),
-        results=format_for(path).results(path, recording.channels),
-        remarks=remarks,
+        results=results,
+        remarks=(*remarks, *said_of_spikes),
     )
 
 

@@ -124,7 +124,18 @@ def test_a_file_is_a_recording_that_knows_its_file(gappy, tmp_path):
     assert mocapbench.read(str(path), rate=30).times[1] == pytest.approx(1 / 30)
 
 
-def damage(recording, **changes):
+def test_spikes_of_a_file_are_hidden_if_that_is_asked_for(walk, tmp_path):
+    values = walk().values.copy()
+    values[100, 3:6] += 500
+    path = tmp_path / "walk.csv"
+    to_frame(walk().with_values(values)).reset_index(names="time").to_csv(path, index=False)
+    assert mocapbench.read(path).visible.all()
+    read = mocapbench.read(path, hide_spikes=True)
+    assert not read.visible[100, 3:6].any()
+    assert any("spike" in text for text in read.remarks)
+
+
+def damage(recording):
     table = to_frame(recording)
     return {
         "empty": lambda: table.iloc[:0],
