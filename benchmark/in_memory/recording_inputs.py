@@ -64,10 +64,10 @@ def read(source: Any, **options: Any) -> Recording:
         hidden.
     **options
         Of a file: ``rate`` in frames per second, ``min_likelihood``, ``insert_missing``,
-        ``missing`` and ``hide_spikes``, as ``mocapbench fill`` has them. Of a table: ``rate``, ``name`` and
-        ``min_likelihood``. Of an array: ``rate``, which it needs, ``names`` and ``units`` of its
-        channels, and ``name``. Of a dataset: ``rate``, ``name`` and ``min_likelihood``, of its
-        confidence.
+        ``missing`` and ``hide_spikes``, as ``mocapbench fill`` has them. Of a table: ``rate``,
+        ``name`` and ``min_likelihood``. Of an array: ``rate``, which it needs, ``names`` and
+        ``units`` of its channels, and ``name``. Of a dataset: ``rate``, ``name`` and
+        ``min_likelihood``, of its confidence.
 
     Returns
     -------
@@ -151,6 +151,7 @@ def _keep(source: Recording) -> Recording:
 
 def _read_file(
     source: str | Path,
+    *,
     rate: float | None = None,
     min_likelihood: float | None = None,
     insert_missing: bool = False,
