@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -45,7 +45,6 @@ def with_best_scales(posterior: JointPosterior, estimate: PointEstimate) -> Poin
     )
 
 
-@dataclass(frozen=True)
 class MaximumAPosteriori(Learning):
     """GPDM Algorithm 1: alternate the scales in closed form with L-BFGS on all other unknowns.
 
@@ -56,8 +55,8 @@ class MaximumAPosteriori(Learning):
         the place of the paper's scaled conjugate gradients.
     """
 
-    n_rounds: int
-    n_steps: int
+    def __init__(self, n_rounds: int, n_steps: int) -> None:
+        self.n_rounds, self.n_steps = n_rounds, n_steps
 
     def learn(
         self, posterior: JointPosterior, start: PointEstimate, rng: np.random.Generator
