@@ -9,6 +9,7 @@ from sklearn.impute import KNNImputer
 
 import mocapbench
 from mocapbench.baselines import Imputer, LinearImputer, Prediction
+from mocapbench.datasets import Recording
 from mocapbench.metrics import Imputation, mse
 
 HIDE = mocapbench.Gaps(0.25, count=6, seed=3)
@@ -129,3 +130,11 @@ def test_the_best_is_chosen_without_a_look_at_what_is_hidden(walk):
     scores = mocapbench.evaluate(walk(), ["best", "hold"], HIDE, metrics="mse", effort="low")
     means = scores.groupby("model")["value"].mean()
     assert means["best"] < means["hold"]
+
+
+def test_angles_are_not_unwrapped_again_where_a_gap_is_hidden():
+    """Over a gap in which an angle grows by 250°, those behind it would be taken for 360° less."""
+    times = np.arange(300) / 60
+    spinning = Recording("spinning", times, 500 * times[:, None], ["root.ry"], ["deg"])
+    scores = mocapbench.evaluate(spinning, "linear", mocapbench.Gaps(0.5, count=3), metrics="mse")
+    np.testing.assert_allclose(scores["value"], 0.0, atol=1e-9)
