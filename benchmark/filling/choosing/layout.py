@@ -91,23 +91,23 @@ class EpisodeLayout:
             self.blocked[copy.stop :] = True
 
     def place_between(self, queue: EpisodeQueue) -> None:
-        """Place copies of the episodes of a queue, as many as a hold-out may hide, or one.
+        """Place copies of the episodes of a queue, as many entries as a hold-out may hide, or one.
 
         One that does not fit beside those as it is waits for the next hold-out, where it is the
         first. If it does not fit there either, its gaps are placed one by one, and shortened if
         need be: so a long gap does not shorten those that overlap with it.
         """
-        room, hidden = MOST_HIDDEN * (self.stop - self.start), 0
+        room, hidden = MOST_HIDDEN * (self.stop - self.start) * self.blocked.shape[1], 0
         for _ in range(COPIES):
             episode = queue.peek()
-            if hidden and hidden + len(episode) > room:
+            if hidden and hidden + episode.n_entries > room:
                 return
             if self._place(episode, self.start, self.stop, _SHARES[:1]) is None:
                 if self.copies:
                     return
                 for gap in episode.gaps:
                     self._place(Episode((gap,)), self.start, self.stop)
-            hidden += len(episode)
+            hidden += episode.n_entries
             queue.pop()
 
     def _place(
