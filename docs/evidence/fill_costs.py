@@ -174,7 +174,8 @@ def _find_models(problem: GapProblem, method: str) -> list[str]:
 
 
 def _read_rows(path: Path) -> list[dict[str, Any]]:
-    return pd.read_csv(path).to_dict("records") if path.exists() else []
+    table = pd.read_csv(path) if path.exists() else pd.DataFrame()
+    return [{str(name): value for name, value in row.items()} for row in table.to_dict("records")]
 
 
 def _is_too_large(key: dict[str, Any], rows: Sequence[dict[str, Any]]) -> bool:

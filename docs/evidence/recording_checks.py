@@ -77,9 +77,9 @@ def split(recording: Recording) -> tuple[Sequence[str], Array]:
 
 def record(names: Sequence[str], positions: Array, rate: float) -> Recording:
     """Return markers at positions (N, M, 3) as a recording."""
-    axes = [f"{name}.{axis}" for name in names for axis in "xyz"]
+    axes = tuple(f"{name}.{axis}" for name in names for axis in "xyz")
     times = np.arange(len(positions)) / rate
-    return Recording("", times, positions.reshape(len(times), -1), axes, ["mm"] * len(axes))
+    return Recording("", times, positions.reshape(len(times), -1), axes, ("mm",) * len(axes))
 
 
 def move(recording: Recording, positions: Array) -> Recording:

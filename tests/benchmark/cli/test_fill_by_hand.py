@@ -105,7 +105,7 @@ def test_a_rule_that_names_no_gap_ends_with_2_before_any_model_runs(cli, walk, o
     monkeypatch.setattr(command.filling, "fill", None)
     assert cli("fill", walk, "--leave", "LKNEE", "--out", out) == 2
     assert "--leave: expected a gap to fill, got 'LKNEE', which names none: did you" in cli.printed
-    assert cli("fill", walk, "--model", "LKNE=linaer", "--out", out) == 2
+    assert cli("fill", walk, "--model", "LKNE=lineal", "--out", out) == 2
     assert "linear" in cli.printed
     assert not out.exists()
 

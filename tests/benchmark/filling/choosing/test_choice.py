@@ -207,7 +207,7 @@ def test_of_a_model_without_intervals_none_are_checked(waves, hidden, only):
 def test_intervals_that_take_too_much_work_are_not_checked(waves, hidden, only, monkeypatch):
     only("intervals")
     mask, workers = hidden((50, 58, [0])), Here()
-    monkeypatch.setattr(choice, "predict_calibrated_seconds", lambda *_: 7.0)
+    monkeypatch.setattr(choice, "predict_calibrated_seconds", lambda *_: 70.0)
     chosen = choose_for(GapProblem(waves().hide(mask), mask), workers)
     assert not chosen.in_intervals
     assert chosen.with_intervals == {"intervals"}

@@ -1,5 +1,7 @@
 """The schedule: which models fill how many hold-outs, by work that is predicted."""
 
+import re
+
 import numpy as np
 import pytest
 from fill_workers import Here
@@ -78,8 +80,8 @@ def run(monkeypatch):
 def test_a_model_that_is_worse_by_more_than_chance_fills_no_further_hold_outs(run):
     found, workers = run({"good": 1.0, "alike": 1.0, "bad": 3.0})
     assert workers.filled == {"good": len(SHORT), "alike": len(SHORT), "bad": 2}
-    assert found["bad"].ending.startswith("erred 2.92 times as far as the best in 2 hold-outs")
-    assert "by more than chance" in found["bad"].ending
+    ending = r"erred \d\.\d+ times as far as the best in 2 hold-outs, by more than chance"
+    assert re.fullmatch(ending, found["bad"].ending)
 
 
 def test_it_stops_when_one_model_is_the_best_of_each_kind(run):
@@ -104,25 +106,25 @@ def test_a_model_goes_on_if_it_is_the_best_of_one_kind_however_bad_in_others(run
 
 
 def test_before_any_model_is_dropped_all_have_filled_a_gap_of_each_kind(run):
-    hold_outs = [*SHORT[:5], *LONG]
+    hold_outs = [*SHORT[:3], *LONG]
     errors = {"snap": {KINDS["short"]: 1.0, KINDS["long"]: 9.0}}
     errors["patient"] = {KINDS["short"]: 9.0, KINDS["long"]: 1.0}
     _, workers = run(errors, hold_outs)
-    assert workers.filled == dict.fromkeys(errors, 6)
+    assert workers.filled == dict.fromkeys(errors, 4)
 
 
 def test_a_model_whose_work_exceeds_what_is_left_never_starts(run):
     errors = dict.fromkeys(("one", "dear", "two"), 1.0)
-    found, workers = run(errors, work=40.0, costs={"dear": 11.0})
+    found, workers = run(errors, work=40.0, costs={"dear": 16.0})
     assert workers.filled["dear"] == 0
-    assert found["dear"].ending == "would take 22 s of work, more than --effort leaves"
+    assert found["dear"].ending == "would take 32 s of work, more than --effort leaves"
     assert workers.filled["one"] == workers.filled["two"] >= 4
 
 
-def test_the_first_hold_outs_take_half_of_the_work_at_most_so_that_some_is_left(run):
+def test_the_first_hold_outs_take_three_quarters_of_the_work_at_most(run):
     errors = dict.fromkeys(("one", "dear"), 1.0)
-    assert run(errors, work=22.1, costs={"dear": 10.0})[1].filled["dear"] == 0
-    assert run(errors, work=44.0, costs={"dear": 10.0})[1].filled["dear"] == 4
+    assert run(errors, work=29.0, costs={"dear": 10.0})[1].filled["dear"] == 0
+    assert run(errors, work=29.4, costs={"dear": 10.0})[1].filled["dear"] == 2
 
 
 def test_the_best_is_not_replaced_by_a_worse_one_that_takes_less_work(run):
@@ -155,7 +157,7 @@ def test_what_is_spent_never_exceeds_the_work_and_the_same_models_start(costs, w
 
 
 def test_those_that_did_best_have_the_work_that_is_left(run):
-    errors = {"first": 1.02, "second": 1.0}
+    errors = {"first": 1.04, "second": 1.0}
     _, workers = run(errors, work=9.0, costs={})
     assert [model for model, *_ in workers.submitted] == ["first"] * 2 + ["second"] * 2 + [
         "second"
