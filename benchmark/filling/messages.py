@@ -82,16 +82,27 @@ def _describe_lead(ranking: Ranking, lacks: bool) -> str:
     gaps = _count_gaps(ranking)
     if not others:
         return f"{first} alone was compared to the end, over {gaps}."
+    if ranking.least != first:
+        return (
+            f"{first} did best over all kinds of gaps together; that {ranking.least} did better in "
+            f"{gaps} of this kind may be chance."
+        )
     if not ranking.tested:
         return f"{first} did best in {gaps}, too few to tell whether that is chance."
+    return f"{_describe_test(ranking, lacks)}, over {gaps}."
+
+
+def _describe_test(ranking: Ranking, lacks: bool) -> str:
+    """Return what the test says of the lead of the first model."""
+    first, second = ranking.order[:2]
     if len(ranking.sharing) == 1:
-        return f"{first} leads {others[0]} by more than chance, over {gaps}."
+        return f"{first} leads {second} by more than chance"
     if not ranking.rivals and lacks:
-        return f"{first} errs least of those compared, over {gaps}."
+        return f"{first} errs least of those compared"
     if not ranking.rivals:
-        return f"{first} leads by far, but gaps differ too much for a test, over {gaps}."
+        return f"{first} leads by far, but gaps differ too much for a test"
     rivals = join_names(ranking.rivals, len(ranking.rivals))
-    return f"The lead of {first} over {rivals} may be chance, over {gaps}."
+    return f"The lead of {first} over {rivals} may be chance"
 
 
 def _count_gaps(ranking: Ranking) -> str:

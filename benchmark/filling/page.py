@@ -85,11 +85,17 @@ def _tabulate_rankings(filled: FilledRecording, choice: Choice) -> dict[str, pd.
 def _note_model(filled: FilledRecording, choice: Choice, kind: Kind, model: str) -> str:
     """Return what is to be said of a ranked model beside its error."""
     ranking = choice.rankings[kind]
+    first, means = ranking.order[0], ranking.means
+    lead = (
+        f"lead of {first} may be chance"
+        if means[model] >= means[first]
+        else "less, maybe by chance"
+    )
     of_kind = filled.kinds == filled.all_kinds.index(kind)
     n_windows = {one.model: one.n_windows for one in choice.contenders}
     notes = (
         "chosen" if model in filled.models[of_kind] else "",
-        f"lead of {ranking.order[0]} may be chance" if model in ranking.rivals else "",
+        lead if model in ranking.rivals else "",
         "fitted to windows" if n_windows[model] else "",
     )
     return ", ".join(filter(None, notes))

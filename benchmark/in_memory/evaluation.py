@@ -64,7 +64,11 @@ def evaluate(
         Names of metrics; by default all that are defined.
     train : sequence
         Recordings to learn from besides.
-    effort, seed, jobs
+    effort : str
+        See `fill`.
+    seed : int
+        See `fill`.
+    jobs : int or None
         See `fill`.
     **options
         For `read`.

@@ -33,8 +33,16 @@ class FileRecording(Recording):
 
     Parameters
     ----------
-    name, times, values, channels, units
-        See `mocapbench.datasets.Recording`.
+    name : str
+        What messages call it.
+    times : array_like of shape (N,)
+        Seconds.
+    values : array_like of shape (N, D)
+        NaN marks what is hidden.
+    channels : sequence of D str
+        Names, all different.
+    units : sequence of D str
+        The unit of each channel.
     path : Path
         The file.
     format : Format

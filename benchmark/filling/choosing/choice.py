@@ -14,7 +14,7 @@ from mocapbench.benchmark.filling.candidates import find_candidates
 from mocapbench.benchmark.filling.choosing.halving import Contender, rank_by_kind, run_rungs
 from mocapbench.benchmark.filling.choosing.hold_outs import HoldOut, has_room, make_hold_outs
 from mocapbench.benchmark.filling.choosing.kinds import Kind
-from mocapbench.benchmark.filling.choosing.ranking import Ranking
+from mocapbench.benchmark.filling.choosing.ranking import Ranking, share_evidence
 from mocapbench.benchmark.filling.choosing.scores import list_gaps
 from mocapbench.benchmark.filling.costs import predict_calibrated_seconds, predict_seconds
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt
@@ -131,7 +131,7 @@ def choose(
         )
     filled = tuple(hold_outs[:n_filled])
     choice = Choice(
-        rank_by_kind(contenders, filled),
+        _share_evidence_by_unit(rank_by_kind(contenders, filled)),
         filled,
         tuple(contenders),
         work,
@@ -139,6 +139,14 @@ def choose(
         _find_those_with_intervals(contenders, n_filled),
     )
     return replace(choice, in_intervals=check_intervals(choice, workers))
+
+
+def _share_evidence_by_unit(rankings: Mapping[Kind, Ranking]) -> dict[Kind, Ranking]:
+    """Return the rankings, to each of which all kinds of its unit contribute."""
+    return {
+        kind: share_evidence(own, [one for k, one in rankings.items() if k.unit == kind.unit])
+        for kind, own in rankings.items()
+    }
 
 
 def _allow_work(problem: GapProblem, effort: str) -> float:

@@ -12,7 +12,7 @@ that share frames with it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import takewhile
 
 import numpy as np
@@ -23,13 +23,14 @@ from mocapbench.benchmark.filling.choosing.hold_outs import HeldOutGap
 from mocapbench.benchmark.filling.gaps import Gap
 from mocapbench.metrics.statistics import (
     ALPHA,
+    FEWEST_UNITS,
     UnitMeans,
     holm_tests_of_means,
     too_few,
     unit_means,
 )
 
-__all__ = ["Ranking", "number_positions", "rank", "tell_positions"]
+__all__ = ["Ranking", "number_positions", "rank", "share_evidence", "tell_positions"]
 
 _NEAR = 1.5
 """Errors, relative to the least, up to which a model is a rival of the first."""
@@ -44,7 +45,8 @@ class Ranking:
     Parameters
     ----------
     order : tuple of str
-        The models; the first is the choice.
+        The models; the first is the choice. Where others of the same unit are drawn upon, it need
+        not be the one with the least error.
     means : mapping of str to float
         The weighted mean error of each.
     intervals : mapping of str to (float, float)
@@ -71,9 +73,14 @@ class Ranking:
     sharing: tuple[str, ...]
 
     @property
+    def least(self) -> str:
+        """The model with the least error."""
+        return min(self.order, key=self.means.__getitem__)
+
+    @property
     def near(self) -> tuple[str, ...]:
         """The models that err little more than the first, which are that one and others."""
-        most = _NEAR * self.means[self.order[0]]
+        most = _NEAR * self.means[self.least]
         return tuple(model for model in self.order if self.means[model] <= most)
 
     @property
@@ -126,6 +133,35 @@ def _bound_means(means: UnitMeans) -> list[tuple[float, float]]:
     half = means.drop_errors_of_few_units().half_widths(ALPHA)
     low, high = np.maximum(means.mean - half, 0.0), means.mean + half
     return [*zip(low.tolist(), high.tolist(), strict=True)]
+
+
+def share_evidence(ranking: Ranking, others: Sequence[Ranking]) -> Ranking:
+    """Return a ranking in whose order the errors in gaps of other kinds count, too.
+
+    A kind with few independent positions says little by itself. The logarithm of a model's mean
+    error is a mean of that in the kind itself, by the number of its positions, and that in all
+    kinds, which counts as many positions as a test needs. A model that the test finds worse in the
+    kind itself comes no further forward.
+
+    Parameters
+    ----------
+    ranking : Ranking
+    others : sequence of Ranking
+        Of the same models in gaps of the same unit, that one among them.
+    """
+    own, *all_kinds = (_take_logarithms(one, ranking.order) for one in (ranking, *others))
+    pooled = np.average(all_kinds, axis=0, weights=[one.n_positions for one in others])
+    n = ranking.n_positions
+    scores = (n * own + FEWEST_UNITS * pooled) / (n + FEWEST_UNITS)
+    able = ranking.sharing if ranking.tested else ranking.order
+    places = sorted(range(len(scores)), key=lambda k: (ranking.order[k] not in able, scores[k]))
+    return replace(ranking, order=tuple(ranking.order[k] for k in places))
+
+
+def _take_logarithms(ranking: Ranking, order: Sequence[str]) -> Array:
+    """Return the logarithm of each model's mean error, 0 in their mean."""
+    errors = np.log([max(ranking.means[model], np.finfo(float).tiny) for model in order])
+    return np.asarray(errors - errors.mean())
 
 
 def _find_models_alike(losses: pd.DataFrame, shares: Array) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.filling.choosing.hold_outs import make_hold_outs
-from mocapbench.benchmark.filling.choosing.ranking import number_positions, rank
+from mocapbench.benchmark.filling.choosing.ranking import number_positions, rank, share_evidence
 from mocapbench.benchmark.filling.choosing.scores import list_gaps
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.datasets import Recording
@@ -124,3 +124,40 @@ def test_held_out_gaps_of_a_long_recording_are_nearly_all_at_positions_of_their_
     hold_outs = make_hold_outs(problem(1500, (700, 715)), np.random.default_rng(0))
     positions = number(hold_outs)
     assert len(set(positions.tolist())) > 0.9 * len(positions) > 20
+
+
+MEANS = st.lists(st.floats(0.1, 10.0), min_size=3, max_size=3)
+
+
+@given(MEANS)
+def test_a_kind_alone_keeps_its_order(means):
+    own = ranking_of({model: [mean] for model, mean in zip("abc", means, strict=True)})
+    assert share_evidence(own, [own]).order == own.order
+
+
+def test_a_kind_of_few_gaps_follows_the_others_and_one_of_many_itself():
+    few = ranking_of({"one": [1.0], "two": [1.1]})
+    many = ranking_of({"one": [2.0, 1.9] * 20, "two": [1.0, 1.1] * 20})
+    assert share_evidence(few, [few, many]).order == ("two", "one")
+    assert share_evidence(many, [few, many]).order == ("two", "one")
+    assert share_evidence(few, [few]).order == ("one", "two")
+
+
+def test_a_model_that_is_worse_by_more_than_chance_comes_no_further_forward():
+    own = ranking_of({"one": [1.0, 1.1, 1.0, 1.1, 1.0], "two": [1.3, 1.4, 1.3, 1.4, 1.3]})
+    others = ranking_of({"one": [9.0, 9.1] * 50, "two": [1.0, 1.1] * 50})
+    assert own.sharing == ("one",)
+    assert share_evidence(own, [own, others]).order == ("one", "two")
+
+
+@given(MEANS, MEANS)
+def test_evidence_is_shared_by_the_closed_form(own, others):
+    rankings = [
+        ranking_of({m: [mean] * n for m, mean in zip("abc", means, strict=True)})
+        for means, n in ((own, 1), (others, 3))
+    ]
+    logs = [np.log(means) - np.log(means).mean() for means in (own, others)]
+    scores = (logs[0] + 5 * (logs[0] + 3 * logs[1]) / 4) / 6
+    order = share_evidence(rankings[0], rankings).order
+    found = [scores["abc".index(model)] for model in order]
+    assert (np.diff(found) >= -1e-9).all()
