@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from rich.console import Console
 from rich.progress import Progress
+
+from mocapbench.benchmark.cli.console import LiteralConsole
 
 __all__ = ["show_progress"]
 
@@ -14,7 +15,7 @@ __all__ = ["show_progress"]
 @contextmanager
 def show_progress(text: str) -> Iterator[Callable[[int, int], object]]:
     """Yield what is called with how much is done, and how much that is in all."""
-    console = Console(stderr=True)
+    console = LiteralConsole(stderr=True)
     watched = console.is_terminal or console.is_jupyter
     with Progress(console=console, transient=True, disable=not watched) as progress:
         task = progress.add_task(text, total=None)

@@ -37,6 +37,7 @@ GIVEN = {
     "data": ("data", "status", "35_03"),
     "export": ("export", "--out", "run", "--to", "{new}"),
     "list": ("list", "models"),
+    "inspect": ("inspect", "walk.csv"),
     "info": ("info",),
     "help": ("--help",),
     "version": ("--version",),
