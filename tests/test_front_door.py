@@ -44,6 +44,7 @@ def test_what_others_use_loads_nothing_of_it():
     assert "mocapbench.benchmark.in_memory" not in run(code)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("use", "said"),
     [

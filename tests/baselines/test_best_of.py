@@ -98,6 +98,7 @@ def test_nothing_is_random_and_neither_order_nor_company_matters():
     np.testing.assert_allclose(there.variance, here.variance, rtol=1e-5, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_variance_includes_how_far_candidates_lie_apart():
     (prediction,) = MODEL.impute(GIVEN[:1])
     (weights,) = MODEL.weights(GIVEN[:1])

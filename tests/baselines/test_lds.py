@@ -153,6 +153,7 @@ def test_other_channels_are_refused():
         LDS(2).fit(WALKS).impute([WALKS[0].select(("knee.rx",))])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("noise", [0.3, 1.0])
 def test_intervals_are_hardly_wider_than_the_noise_of_a_recording_that_repeats_itself(noise):
     rng, angle = np.random.default_rng(20), 2 * np.pi * np.arange(600) / 60

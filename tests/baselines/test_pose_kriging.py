@@ -126,6 +126,7 @@ def test_where_a_body_faces_changes_nothing_though_the_mirror_flips_its_sign(tur
     np.testing.assert_allclose(there.variance, here.variance, rtol=1e-6)
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(st.lists(st.integers(-3, 3), min_size=6, max_size=6), st.booleans())
 def test_whole_turns_of_any_angle_change_nothing(turns, in_training):

@@ -14,6 +14,7 @@ REGISTRIES = {"tasks": TASKS, "models": MODELS, "metrics": METRICS}
 EXAMPLE = Path(__file__).parents[2] / "examples" / "third-party" / "src"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", REGISTRIES)
 def test_every_name_has_a_page_and_a_place_in_the_index(texts, kind):
     names = REGISTRIES[kind].names()

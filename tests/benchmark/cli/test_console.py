@@ -167,6 +167,7 @@ def test_the_text_itself_is_shown(printed, run):
     assert SHOWN.replace("/", "") in OURS.sub("", text).replace("/", "")
 
 
+@pytest.mark.slow
 def test_of_hostile_models_a_run_shows_the_text(printed, tmp_path):
     plugin = tmp_path / "plugin.py"
     plugin.write_text(

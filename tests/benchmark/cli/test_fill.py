@@ -134,6 +134,7 @@ def test_a_seed_is_one_of_the_choice_and_effort_a_word(cli, walk, out):
     assert not out.exists()
 
 
+@pytest.mark.slow
 def test_progress_is_shown_where_there_is_no_terminal(cli, walk, out, monkeypatch):
     monkeypatch.setattr(command, "_PLAIN_INTERVAL", 0.0)
     assert cli("fill", walk, "--effort", "low", "--out", out) == 0

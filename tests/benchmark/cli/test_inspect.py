@@ -74,6 +74,7 @@ def write_table(path, names, values):
     return path
 
 
+@pytest.mark.slow
 def test_many_findings_are_few_lines_and_the_longest_gap_comes_first(tmp_path):
     rng = np.random.default_rng(0)
     values = np.cumsum(rng.normal(size=(1000, 60)), axis=0)

@@ -48,6 +48,7 @@ def test_a_run_ends_in_a_report(cli, records, tmp_path):
     )
 
 
+@pytest.mark.slow
 def test_scores_do_not_depend_on_workers_or_on_which_models_run(cli, records, tmp_path):
     assert cli(*FAST, "--out", tmp_path / "one", "--jobs", 1) == 0
     assert cli(*FAST, "--out", tmp_path / "two", "--jobs", 2) == 0
@@ -113,6 +114,7 @@ def test_a_smaller_run_says_what_its_report_leaves_out(cli, tmp_path):
     assert "3 results of the run before (3 others)" in cli.printed
 
 
+@pytest.mark.slow
 def test_the_wall_time_of_a_resumed_run_says_what_it_leaves_out(cli, tmp_path):
     run = (*TOY, "--models", "linear", "--out", tmp_path / "run", "--folds")
     assert cli(*run, 1) == 0
@@ -130,6 +132,7 @@ def _take_longer(path):
     path.write_text(json.dumps(record | {"fit_seconds": record["fit_seconds"] + 1}))
 
 
+@pytest.mark.slow
 def test_a_finished_run_is_drawn_again_only_if_something_is_new(cli, tmp_path):
     run, page = (*FAST, "--out", tmp_path / "run"), tmp_path / "run" / "report.html"
     assert cli(*run) == 0

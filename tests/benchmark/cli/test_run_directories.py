@@ -20,6 +20,7 @@ def _events(path):
     return [json.loads(line) for line in path.read_text().splitlines()]
 
 
+@pytest.mark.slow
 def test_two_runs_merge_into_one_that_every_command_takes(cli, records, tmp_path):
     one, other, out = tmp_path / "one", tmp_path / "other", tmp_path / "out"
     assert cli(*TOY, "--models", "trivial,cubic-spline", "--out", one) == 0

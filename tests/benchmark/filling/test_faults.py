@@ -110,6 +110,7 @@ def spiky(tmp_path):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("option", "marked"), [((), 0), (("--hide-spikes",), 9)])
 def test_the_table_marks_entries_that_were_spikes(cli, spiky, tmp_path, option, marked):
     out = tmp_path / "out"

@@ -34,6 +34,7 @@ def test_models_that_break_say_why_and_the_others_go_on(attempts):
     assert linear.prediction.mean.shape == (10,)
 
 
+@pytest.mark.slow
 def test_a_model_that_hangs_is_stopped_and_one_that_breaks_is_not(attempts, monkeypatch):
     monkeypatch.setattr(workers, "_LEAST_LIMIT", 1.5)
     hangs, linear, raises = attempts("hangs", "linear", "raises", seconds=0.01)

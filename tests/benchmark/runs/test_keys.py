@@ -173,6 +173,7 @@ FIT_PATH = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("module", "task", "model"), FIT_PATH)
 def test_code_that_poses_or_fits_is_part_of_the_fit_key(append, module, task, model):
     before = _key_of(task, model)

@@ -40,6 +40,7 @@ def run_draft(folder, rate=None):
     return open_task_file(path, folder)
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(
     st.lists(FILES, min_size=1, max_size=3, unique=True),

@@ -43,6 +43,7 @@ def _errors(windows, name, **parameters):
     return errors
 
 
+@pytest.mark.slow
 def test_the_spline_equals_the_paper(windows, num_regression):
     errors = _errors(windows, "cubic-spline")
     published = published_values("missing-frames")

@@ -2,6 +2,8 @@
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 VIEWS = [(width, scheme) for width in (390, 1280) for scheme in ("light", "dark")]
 
 CONTRAST = """

@@ -161,6 +161,7 @@ def test_what_it_leaves_running_is_found_and_killed(tmp_path):
     assert not [pid for pid in left if psutil.pid_exists(pid)]
 
 
+@pytest.mark.slow
 def test_it_ends_with_the_process_that_waits_for_it(tmp_path):
     """However that ends: a killed worker must leave nothing that computes on."""
     file = tmp_path / "pid"

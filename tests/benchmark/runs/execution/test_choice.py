@@ -42,6 +42,7 @@ def test_a_scheduler_that_does_not_answer_is_refused(address, monkeypatch):
         open_backend(None, scheduler=address)
 
 
+@pytest.mark.slow
 def test_a_run_on_this_machine_imports_no_dask():
     code = (
         "import sys; from mocapbench import benchmark as b; b.run, b.open_backend(1)\n"

@@ -41,6 +41,7 @@ def test_workers_have_one_thread_and_this_process_keeps_its_environment(monkeypa
     assert os.environ["OPENBLAS_NUM_THREADS"] == "2"
 
 
+@pytest.mark.slow
 def test_a_server_that_died_is_started_again_and_is_as_the_first(monkeypatch, tmp_path, pool):
     """It computes with one thread, and runs no file of the folder that it starts in."""
     hostile = HostileFolder(tmp_path / "sent", tmp_path / "marks")
