@@ -25,7 +25,7 @@ from mocapbench.benchmark.cli.options import Plugins, load_plugins
 from mocapbench.benchmark.errors import ExitCode, UsageError
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark.filling import FilledRecording, InputFile, OutputPaths, Workers
+    from mocapbench.benchmark.filling import InputFile, OutputPaths, Workers
 
 __all__ = ["app"]
 
@@ -182,11 +182,12 @@ def _fill_file(
             with _name_file(input_file):
                 watch = _make_watch(name, show)
                 filled = filling.fill(input_file.request, workers, effort, watch)
-        page = filling.compose_page(input_file, filled, _quote_command())
-        filling.write(input_file, filled, outputs, reports.render_filled(page))
+        gaps = filling.tabulate_gaps(filled)
+        page = filling.compose_page(input_file, filled, gaps, _quote_command())
+        filling.write(input_file, filled, gaps, outputs, reports.render_filled(page))
     except (datasets.FormatError, UsageError, OSError) as error:
         return explain(error)
-    _print_result(input_file, filled, outputs, console)
+    _print_result(page, outputs, console)
     return ExitCode.NOT_REPEATABLE if filled.stopped else ExitCode.OK
 
 
@@ -212,37 +213,27 @@ def _print_now_and_then(console: LiteralConsole) -> Callable[[str], None]:
     return show
 
 
-def _print_result(
-    input_file: InputFile, filled: FilledRecording, outputs: OutputPaths, console: LiteralConsole
-) -> None:
-    sentences = (
-        filling.describe_fill(filled),
-        *filling.describe_choice(filled),
-        *filling.list_remarks(filled),
-        *filling.describe_faults(input_file.faults),
-        *input_file.remarks,
-    )
-    for text in sentences:
-        console.print(f"{input_file.path.name}: {text}", soft_wrap=True, highlight=False)
-    _print_gaps(filled, outputs, console)
+def _print_result(page: reports.FilledPage, outputs: OutputPaths, console: LiteralConsole) -> None:
+    for text in (page.headline, *page.verdict, *page.remarks):
+        console.print(f"{page.file}: {text}", soft_wrap=True, highlight=False)
+    _print_gaps(page, outputs, console)
     for path in outputs:
         console.print(f"  {path}", soft_wrap=True, highlight=False)
 
 
-def _print_gaps(filled: FilledRecording, outputs: OutputPaths, console: LiteralConsole) -> None:
+def _print_gaps(page: reports.FilledPage, outputs: OutputPaths, console: LiteralConsole) -> None:
     """Print all gaps if they are few, or else those with most cautions."""
-    table = filling.sort_by_caution(filling.tabulate_gaps(filled))
-    n_shown = len(table) if len(table) <= _MOST_GAPS else _FIRST_GAPS
-    shown = filling.describe_gaps(table[:n_shown])[[*_PRINTED, "caution"]]
+    n_gaps = len(page.gaps)
+    n_shown = n_gaps if n_gaps <= _MOST_GAPS else _FIRST_GAPS
     columns = [Column(name, no_wrap=True) for name in _PRINTED]
     grid = Table(*columns, "caution", box=None, pad_edge=False, header_style="")
-    for row in shown.itertuples(index=False):
+    for row in page.gaps[:n_shown][[*_PRINTED, "caution"]].itertuples(index=False):
         grid.add_row(*row)
     console.print(Padding.indent(grid, 2), highlight=False)
-    if len(table) > n_shown:
-        more = format_count(len(table) - n_shown, "more gap is", "more gaps are")
+    if n_gaps > n_shown:
+        more = format_count(n_gaps - n_shown, "more gap is", "more gaps are")
         console.print(f"  {more} in {outputs[2]}", soft_wrap=True, highlight=False)
-    console.print(f"  {filling.describe_options(filled, table)}", soft_wrap=True, highlight=False)
+    console.print(f"  {page.options}", soft_wrap=True, highlight=False)
 
 
 def _parse_frames(frames: str | None) -> tuple[int, int] | None:

@@ -13,7 +13,6 @@ from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import ENTRIES, GAPS, require_short_names, require_writable_folder
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
-from mocapbench.benchmark.filling.gap_table import tabulate_gaps
 from mocapbench.benchmark.filling.gaps import Gap, mask_gaps
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.datasets import FrameByChannel
@@ -99,7 +98,13 @@ def _hold_nearest(values: FrameByChannel) -> FrameByChannel:
     return result
 
 
-def write(input_file: InputFile, filled: FilledRecording, outputs: OutputPaths, page: str) -> None:
+def write(
+    input_file: InputFile,
+    filled: FilledRecording,
+    gaps_table: pd.DataFrame,
+    outputs: OutputPaths,
+    page: str,
+) -> None:
     """Write all files of one filled file, or none.
 
     Raises
@@ -116,7 +121,7 @@ def write(input_file: InputFile, filled: FilledRecording, outputs: OutputPaths, 
             copy_path, filled.recording, like=input_file.path, replaced=filled.request.target
         )
         write_text(entries_path, csv_text(tabulate_entries(filled, input_file.spikes)))
-        write_text(gaps_path, csv_text(tabulate_gaps(filled)))
+        write_text(gaps_path, csv_text(gaps_table))
         write_text(page_path, page)
     except BaseException:
         for path in outputs:

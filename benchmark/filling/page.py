@@ -17,7 +17,6 @@ from mocapbench.benchmark.filling.gap_table import (
     describe_gaps,
     describe_options,
     sort_by_caution,
-    tabulate_gaps,
 )
 from mocapbench.benchmark.filling.gaps import Gap, find_gaps
 from mocapbench.benchmark.filling.input_files import InputFile
@@ -41,12 +40,14 @@ _LEAST_BESIDE, _LEAST_MOTION = 15, 3
 _ROOT_PATH = frozenset({"root.tx", "root.ty", "root.tz"})
 
 
-def compose_page(input_file: InputFile, filled: FilledRecording, command: str) -> FilledPage:
-    """Return the page of a filled file, made by ``command``."""
+def compose_page(
+    input_file: InputFile, filled: FilledRecording, gaps_table: pd.DataFrame, command: str
+) -> FilledPage:
+    """Return the page of a filled file, made by ``command``, with a table of its gaps."""
     gaps, recording = filled.request.gaps, filled.recording
     jumps = find_jumps(recording, filled.request.target)
     shown = list(_choose_gaps(recording, gaps, jumps))
-    choice, table = filled.choice, sort_by_caution(tabulate_gaps(filled))
+    choice, table = filled.choice, sort_by_caution(gaps_table)
     return FilledPage(
         file=input_file.path.name,
         headline=describe_fill(filled),

@@ -111,10 +111,14 @@ def test_a_rule_that_names_no_gap_ends_with_2_before_any_model_runs(cli, walk, o
 
 
 def test_the_table_of_gaps_is_written_with_the_others_or_none_is(cli, walk, out, monkeypatch):
-    def fail(*_):
-        raise OSError(28, "No space left on device")
+    write_text = output_files.write_text
 
-    monkeypatch.setattr(output_files, "tabulate_gaps", fail)
+    def fail(path, text):
+        if path.name == "walk.csv.gaps.csv":
+            raise OSError(28, "No space left on device")
+        write_text(path, text)
+
+    monkeypatch.setattr(output_files, "write_text", fail)
     assert cli("fill", walk, "--model", "linear", "--out", out) == 2
     assert not [*out.iterdir()]
     (out / "walk.csv.gaps.csv").write_text("mine")

@@ -11,6 +11,7 @@ from mocapbench.benchmark.filling.choosing.halving import Contender
 from mocapbench.benchmark.filling.choosing.kinds import Kind
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gap_problem import PredictedEntries
+from mocapbench.benchmark.filling.gap_table import tabulate_gaps
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.benchmark.filling.page import compose_page
 from mocapbench.benchmark.filling.requests.request import FillRequest
@@ -31,7 +32,8 @@ def page_for(whole, target, values, path=Path("waves.csv"), file_format=None):
         {},
         {"one": 0},
     )
-    return compose_page(InputFile(path, file_format or CSVFormat(), request), filled, "fill")
+    input_file = InputFile(path, file_format or CSVFormat(), request)
+    return compose_page(input_file, filled, tabulate_gaps(filled), "fill")
 
 
 @pytest.mark.parametrize("length", [1, 2, 4, 5, 12, 30])
@@ -90,7 +92,8 @@ def test_gaps_of_the_whole_file_are_drawn(waves, hidden):
 
 
 def page_of_choice(filled):
-    return compose_page(InputFile(Path("waves.csv"), CSVFormat(), filled.request), filled, "fill")
+    input_file = InputFile(Path("waves.csv"), CSVFormat(), filled.request)
+    return compose_page(input_file, filled, tabulate_gaps(filled), "fill")
 
 
 def test_the_ranking_notes_the_choice_and_over_whom_its_lead_may_be_chance(filled, choice_of):
