@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterator
 from functools import cached_property
 from html import escape
@@ -86,8 +85,7 @@ class Filled:
 
         What ``leave`` has leaves the gap open, as the argument of that name.
         """
-        table = tabulate_gaps(self.result)
-        return table.assign(leave=[shlex.split(option)[-1] for option in table["leave"]])
+        return tabulate_gaps(self.result)
 
     @property
     def ranking(self) -> pd.DataFrame:

@@ -1,5 +1,7 @@
 """What was filled can be held in one's hand: arrays, tables, pictures, files."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -140,3 +142,11 @@ def test_every_gap_has_a_row_whose_rule_leaves_it_open_and_changes_nothing_else(
     again = mocapbench.fill(gappy, "marker-kriging", leave=filled.gaps["leave"][0])
     assert not again.recording.visible[50:60, :3].any()
     np.testing.assert_array_equal(again.recording.values[120:170], filled.recording.values[120:170])
+
+
+def test_a_rule_names_a_marker_with_blanks_and_quotes_whole(gappy):
+    names = [name.replace("LKNE", "left knee's") for name in gappy.channels]
+    named = mocapbench.fill(replace(gappy, channels=tuple(names)), "linear")
+    assert named.gaps["leave"][0] == "left knee's:50-59"
+    again = mocapbench.fill(named.given, "linear", leave=named.gaps["leave"][0])
+    assert not again.recording.visible[50:60, :3].any()
