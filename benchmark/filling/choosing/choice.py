@@ -192,12 +192,13 @@ def check_intervals(choice: Choice, workers: FillBackend) -> dict[Kind, Mask]:
     """
     firsts = {kind: one.order[0] for kind, one in choice.rankings.items()}
     checked = _find_to_check(choice.hold_outs)
+    kept = [workers.keep(one.problem) for one in checked]
     futures = {}
     for model in sorted({*firsts.values()} & choice.with_intervals):
         seconds = [predict_calibrated_seconds(model, one.problem) for one in checked]
         if sum(seconds) <= choice.work:
-            for one, each in zip(checked, seconds, strict=True):
-                futures[workers.submit(model, workers.keep(one.problem), each)] = model, one
+            for one, problem, each in zip(checked, kept, seconds, strict=True):
+                futures[workers.submit(model, problem, each)] = model, one
     inside: dict[Kind, list[Mask]] = {}
     attempts = workers.collect(futures.keys())
     for future, (model, one) in futures.items():
