@@ -14,6 +14,7 @@ from mocapbench import benchmark as bench
 from mocapbench import datasets
 from mocapbench.benchmark import recording_checks
 from mocapbench.benchmark.cli.console import LiteralConsole
+from mocapbench.benchmark.cli.failures import explain
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
 from mocapbench.benchmark.errors import ExitCode, UsageError
 
@@ -69,8 +70,6 @@ def inspect(
 
 def _check_or_explain(file: Path, reading: Reading) -> dict[str, Any]:
     """Return the check of a file, or why it cannot be read, which is said, too."""
-    from mocapbench.benchmark.cli.failures import explain  # noqa: PLC0415
-
     try:
         return recording_checks.check_file(file, reading)
     except (datasets.FormatError, UsageError, OSError) as error:
