@@ -9,7 +9,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.missing_values import tell_missing
 from mocapbench.benchmark.registry import FORMATS
 from mocapbench.datasets import Format, FormatError, FormatWarning, Recording, unwrap_angles
-from mocapbench.datasets.formats.strays import find_unmeasured
+from mocapbench.datasets.formats.strays import list_measured
 
 __all__ = ["format_for", "read_measured"]
 
@@ -59,6 +59,5 @@ def read_measured(path: str | Path, rate: float | None = None) -> Recording:
     for text in remarks:
         warnings.warn(f"{stated.name}: {text}", FormatWarning, stacklevel=2)
     recording = unwrap_angles(stated.hide(mask))
-    others = find_unmeasured(recording.channels, file.results(Path(path), recording.channels))
-    kept = [name for name in recording.channels if name not in others]
-    return recording.select(kept) if others and kept else recording
+    measured = list_measured(recording.channels, file.results(Path(path), recording.channels))
+    return recording.select(measured) if measured else recording

@@ -9,7 +9,7 @@ from typing import Any
 from mocapbench.benchmark import recording_checks
 from mocapbench.benchmark.filling.requests.names import name_hidden_markers
 from mocapbench.benchmark.filling.requests.request import FillRequest
-from mocapbench.datasets.formats.strays import find_unmeasured
+from mocapbench.datasets.formats.strays import list_measured
 
 __all__ = ["describe_faults", "find_faults_at_gaps", "tabulate_faults"]
 
@@ -26,8 +26,7 @@ def find_faults_at_gaps(request: FillRequest) -> list[Fault]:
     They are the gravest kinds first, as `mocapbench inspect` lists them in JSON.
     """
     given = request.given
-    others = find_unmeasured(given.channels, request.results)
-    measured = given.select([name for name in given.channels if name not in others])
+    measured = given.select(list_measured(given.channels, request.results))
     gaps = [
         (gap.start, gap.stop, {*name_hidden_markers(given.channels, [gap])}) for gap in request.gaps
     ]

@@ -27,7 +27,7 @@ from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.evaluate import score_by
 from mocapbench.datasets import Recording
-from mocapbench.datasets.formats.strays import find_unmeasured
+from mocapbench.datasets.formats.strays import list_measured
 from mocapbench.metrics import Imputation
 
 __all__ = ["evaluate"]
@@ -156,9 +156,9 @@ def _name_recordings(recordings: Sequence[Recording]) -> list[str]:
 
 def _keep_measured(recording: Recording) -> Recording:
     """Return what models are judged by: what was measured, and is seen in some frame."""
-    unmeasured = find_unmeasured(recording.channels, getattr(recording, "results", ()))
-    seen = zip(recording.channels, np.asarray(recording.visible.any(axis=0)), strict=True)
-    kept = recording.select([name for name, is_seen in seen if is_seen and name not in unmeasured])
+    measured = list_measured(recording.channels, getattr(recording, "results", ()))
+    seen = {*np.array(recording.channels)[recording.visible.any(axis=0)].tolist()}
+    kept = recording.select([name for name in measured if name in seen])
     if not kept.channels:
         raise ValueError(f"{recording.name}: expected a visible channel, got none")
     blank = mask_ends(np.asarray(kept.visible.any(axis=1))[:, np.newaxis])[:, 0]

@@ -25,7 +25,7 @@ from mocapbench.benchmark.recording_checks.visibility import (
     place_markers,
 )
 from mocapbench.datasets import Recording, frame_rate, unwrap_angles
-from mocapbench.datasets.formats.strays import is_unlabelled
+from mocapbench.datasets.formats.strays import is_unlabelled, list_measured
 
 __all__ = ["check_file", "find_all", "find_faults", "list_faults"]
 
@@ -55,11 +55,12 @@ def check_file(path: Path, reading: Reading) -> dict[str, Any]:
         results = reading.format_of(path).results(path, stated.channels)
     said = dict.fromkeys(str(each.message) for each in caught)
     strays = [*filter(is_unlabelled, stated.channels)]
-    kept = np.array([name not in {*results, *strays} for name in stated.channels], dtype=bool)
-    measured = [name for name, is_kept in zip(stated.channels, kept, strict=True) if is_kept]
+    measured = list_measured(stated.channels, results)
+    kept = np.isin(stated.channels, measured)
     recording = unwrap_angles(stated.hide(missing).select(measured))
     findings = unite_findings(
-        find_marks(stated.select(measured), missing[:, kept]), find_all(recording)
+        find_marks(stated.select(measured), missing[:, kept]),
+        find_all(recording),
     )
     markers = markers_of(recording.channels, recording.units)
     rate = frame_rate(recording)

@@ -13,7 +13,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.formats import format_for
 from mocapbench.benchmark.missing_values import MissingRule, Told, tell_missing
 from mocapbench.datasets import Format, Recording, unwrap_angles
-from mocapbench.datasets.formats.strays import find_unmeasured
+from mocapbench.datasets.formats.strays import list_measured
 
 __all__ = ["Reading"]
 
@@ -69,8 +69,7 @@ class Reading(NamedTuple):
         mask = np.zeros(recording.values.shape, dtype=bool)
         if self.spikes is None:
             return mask, ()
-        others = find_unmeasured(recording.channels, results)
-        measured = [name for name in recording.channels if name not in others]
+        measured = list_measured(recording.channels, results)
         columns = [recording.channels.index(name) for name in measured]
         mask[:, columns], remarks = self.spikes(recording.select(measured))
         return mask, remarks

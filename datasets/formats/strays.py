@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-__all__ = ["find_unmeasured", "is_unlabelled"]
+__all__ = ["find_unmeasured", "is_unlabelled", "list_measured"]
 
 _WORDS = "unlabell?ed|unnamed|unidentified|unassigned|unknown|uname"
 _STRAY = re.compile(
@@ -50,3 +50,10 @@ def find_unmeasured(channels: Iterable[str], results: Iterable[str]) -> set[str]
         Channels that are results of a model of the body, as the file's format says.
     """
     return {*filter(is_unlabelled, channels), *results}
+
+
+def list_measured(channels: Iterable[str], results: Iterable[str]) -> list[str]:
+    """Return the other channels, of named markers and joints, in their order."""
+    channels = list(channels)
+    unmeasured = find_unmeasured(channels, results)
+    return [name for name in channels if name not in unmeasured]
