@@ -186,11 +186,21 @@ class HeldOutStretches:
     def _within(self) -> Array:
         """(n, n) the covariance of each stretch given the others, in blocks; 0 elsewhere."""
         blocks = np.zeros_like(self._precision)
-        for number in np.unique(self.stretch):
-            frames = np.flatnonzero(self.stretch == number)
-            place = np.ix_(frames, frames)
+        for frames in _group_by_length(self.stretch):
+            place = frames[:, :, None], frames[:, None, :]
             blocks[place] = np.linalg.inv(self._precision[place])
         return blocks
+
+
+def _group_by_length(stretch: Index) -> list[Index]:
+    """Return the frames (G, L) of all stretches of each length L, which are inverted together."""
+    frames = np.argsort(stretch, kind="stable")
+    lengths = np.unique(stretch, return_counts=True)[1]
+    starts = np.cumsum(lengths) - lengths
+    return [
+        frames[starts[lengths == length][:, None] + np.arange(length)]
+        for length in np.unique(lengths)
+    ]
 
 
 def learn_parameters(
