@@ -7,6 +7,7 @@ whatever a model makes of it.
 
 from __future__ import annotations
 
+import math
 import resource
 import sys
 import warnings
@@ -30,6 +31,7 @@ from mocapbench.benchmark.filling.gap_problem import (
     pose_imputing,
 )
 from mocapbench.benchmark.messages import reason
+from mocapbench.benchmark.runs.execution.child import LONGEST
 from mocapbench.benchmark.runs.fitting.solve import build_model
 from mocapbench.datasets import FrameByChannel
 
@@ -66,6 +68,7 @@ def attempt_fill(
     problem: GapProblem,
     memory: int,
     *,
+    seconds: float = LONGEST,
     seed: int = 0,
     method: str = "impute",
     calibration: Callable[[Any], Model] | None = None,
@@ -79,6 +82,8 @@ def attempt_fill(
     problem : GapProblem
     memory : int
         Bytes of address space to which this process is limited from now on.
+    seconds : float, optional
+        Of processor time, after which the system kills this process by SIGXCPU.
     seed : int, default=0
         Of what the model draws at random.
     method : str, default="impute"
@@ -87,7 +92,8 @@ def attempt_fill(
     calibration : callable, optional
         What calibrates the model.
     """
-    resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
+    _limit(resource.RLIMIT_AS, memory)
+    _limit(resource.RLIMIT_CPU, math.ceil(seconds))
     # There are as many attempts as cores: more threads would wait for each other.
     threadpool_limits(limits=1)
     try:
@@ -97,6 +103,13 @@ def attempt_fill(
         return FillAttempt(None, needed, stopped=True)
     except BaseException as error:  # a model that calls sys.exit has failed like any other
         return FillAttempt(None, reason(error) + _locate_error(error, model))
+
+
+def _limit(what: int, most: int) -> None:
+    """Limit this process to so much of a resource, or to what the user's shell allows if less."""
+    _, hard = resource.getrlimit(what)
+    unlimited = hard == resource.RLIM_INFINITY
+    resource.setrlimit(what, (most if unlimited else min(most, hard), hard))
 
 
 def fill_problem(

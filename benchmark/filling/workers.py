@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import pickle
+import signal
 from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from contextlib import ExitStack
@@ -18,6 +19,7 @@ from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.registry import MODELS, find_calibration
 from mocapbench.benchmark.runs.execution.child import (
+    LONGEST,
     ProcessDiedError,
     call_in_child,
     kill_children,
@@ -31,9 +33,12 @@ from mocapbench.benchmark.runs.machine import memory_share
 __all__ = ["FillBackend", "Workers"]
 
 _TIMES, _LEAST_LIMIT = 20.0, 120.0
-"""How many times as long as predicted an attempt may take, and how many seconds at least.
+"""How many times the predicted processor time an attempt may take, and how many seconds at least.
 
 So a busy machine takes longer, and computes the same.
+"""
+_WAITING = 5.0
+"""How many times as long as that an attempt may last: a model that only waits takes no such time.
 """
 
 
@@ -110,11 +115,11 @@ class Workers:
     ) -> Future[FillAttempt]:
         """Have a model solve a problem as soon as a worker is free.
 
-        It is stopped if it takes many times the predicted seconds. See `attempt_fill` for the
-        method.
+        It is stopped if it takes many times the predicted seconds of a core. See `attempt_fill`
+        for the method.
         """
         limit = max(_TIMES * seconds, _LEAST_LIMIT)
-        return self._pool.submit(self._attempt, model, problem, method, limit)
+        return self._pool.submit(self._attempt, model, problem, method, limit, _WAITING * limit)
 
     def collect(
         self,
@@ -149,24 +154,37 @@ def _attempt_in_child(
     problem: Path,
     method: str,
     seconds: float,
+    lasting: float,
     *,
     memory: int,
     seed: int,
     plugins: tuple[Path, ...],
 ) -> FillAttempt:
-    """Return one attempt, made in a child of this process."""
+    """Return one attempt of so many seconds of work, made in a child of this process."""
     load_plugins_once(plugins)
     model, calibration, given = MODELS.get(name), find_calibration(name), _read_problem(problem)
-    attempt = partial(attempt_fill, seed=seed, method=method, calibration=calibration)
+    attempt = partial(
+        attempt_fill,
+        seconds=min(seconds, LONGEST),
+        seed=seed,
+        method=method,
+        calibration=calibration,
+    )
     try:
-        made: FillAttempt = call_in_child(attempt, model, given, memory, timeout=seconds)
+        made: FillAttempt = call_in_child(attempt, model, given, memory, timeout=lasting)
     except TimeoutError:
-        made = FillAttempt(None, f"was stopped after {round(seconds, 2):g} s", stopped=True)
+        made = FillAttempt(None, f"was stopped after {lasting:.3g} s", stopped=True)
     except ProcessDiedError as error:
-        made = FillAttempt(None, f"its process died with exit code {error.exit_code}")
+        made = _explain_death(error.exit_code, seconds)
     finally:
         kill_children()  # what the model started and left running
     return made
+
+
+def _explain_death(exit_code: int, seconds: float) -> FillAttempt:
+    if exit_code == -signal.SIGXCPU:
+        return FillAttempt(None, f"was stopped after {seconds:.3g} s of work", stopped=True)
+    return FillAttempt(None, f"its process died with exit code {exit_code}")
 
 
 @lru_cache(maxsize=2)

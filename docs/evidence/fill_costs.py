@@ -6,7 +6,7 @@ machine hardly changes it. A power law of the sizes of the problem is fitted to 
 
     export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
     python docs/evidence/fill_costs.py measure MEASURED.csv [MODEL ...]
-    python docs/evidence/fill_costs.py fit MEASURED.csv  # writes the table, prints how good it is
+    python docs/evidence/fill_costs.py fit MEASURED.csv  # writes rows of the table, prints how good
 
 Measurements are added to those that a file has. A fill is stopped after a minute; problems that
 are larger in every size are then left out, and what they cost is extrapolated. All take some hours.
@@ -18,7 +18,7 @@ import itertools
 import resource
 import sys
 from collections.abc import Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -37,7 +37,7 @@ from mocapbench.benchmark.filling.costs import (
     count_seconds,
     measure_sizes,
 )
-from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
+from mocapbench.benchmark.filling.fill_attempt import attempt_fill
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.registry import MODELS, build_unfitted, find_calibration
 from mocapbench.benchmark.runs.execution.child import ProcessDiedError, call_in_child
@@ -83,6 +83,7 @@ GRID = (
     Grid("joints", 2000, 30, 10, 60, "frames"),
     Grid("markers", 2000, 120, 10, 300, "one"),
     Grid("joints", 4000, 62, 120, 5, "frames"),
+    Grid("markers", 3000, 120, 24, 40, "one"),
     Grid("markers", 4000, 120, 40, 20, "limb"),
     Grid("joints", 8000, 62, 10, 300, "frames"),
     Grid("markers", 8000, 30, 120, 20, "one"),
@@ -191,21 +192,17 @@ def _is_too_large(key: dict[str, Any], rows: Sequence[dict[str, Any]]) -> bool:
 
 def _time_fill(name: str, method: str, problem: GapProblem) -> float:
     """Return the processor time of a fill: `LONGEST` if it was stopped, NaN if it failed."""
-    arguments = MODELS.get(name), problem, MEMORY, method, find_calibration(name)
+    calibration = find_calibration(name)
+    attempt = partial(attempt_fill, seconds=LONGEST, method=method, calibration=calibration)
     before = _count_processor_time()
     try:
-        made = call_in_child(_fill_within_limit, *arguments, timeout=20 * LONGEST)
+        made = call_in_child(attempt, MODELS.get(name), problem, MEMORY, timeout=20 * LONGEST)
     except (ProcessDiedError, TimeoutError):
         return LONGEST
     if made.failure:
         print(f"{name}: {made.failure}", flush=True)
         return np.nan
     return _count_processor_time() - before
-
-
-def _fill_within_limit(*arguments: Any) -> FillAttempt:
-    resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST))
-    return attempt_fill(*arguments)
 
 
 def _count_processor_time() -> float:
@@ -243,7 +240,7 @@ def fit_cost(
 
 
 def fit(path: Path) -> None:
-    """Write the table, and print how its predictions compare with what was measured."""
+    """Write the rows of measured models, and print how predictions compare with measurements."""
     measured = pd.read_csv(path).dropna()
     measured[[*Sizes._fields]] = _measure_all_sizes(measured)
     table, quality = [], []
@@ -256,7 +253,10 @@ def fit(path: Path) -> None:
                 table.append({"model": model, "method": method, **_round(cost)})
                 quality.append({"model": model, "method": method, **_compare(rows, cost)})
                 expected = cost
-    text = pd.DataFrame(table).to_csv(index=False, lineterminator="\n")
+    others = pd.read_csv(TABLE)
+    others = others[~others["model"].isin(measured["model"])]
+    rows = pd.concat([others, pd.DataFrame(table)]).sort_values("model", kind="stable")
+    text = rows.to_csv(index=False, lineterminator="\n")
     TABLE.write_text(text, encoding="utf-8")
     print(pd.DataFrame(quality).to_string(index=False, float_format="%.2f"))
 

@@ -100,6 +100,12 @@ class NoVariance(_Mean):
         return [Prediction(np.zeros(r.values.shape), np.zeros(r.values.shape)) for r in recordings]
 
 
+class Spins(_Mean):
+    def fit(self, recordings):
+        while True:
+            pass
+
+
 class Hangs(_Mean):
     def fit(self, recordings):
         time.sleep(600)
@@ -186,6 +192,7 @@ MODELS = {
     "wrong-count": WrongCount,
     "no-variance": NoVariance,
     "hangs": Hangs,
+    "spins": Spins,
     "exits": Exits,
     "interrupts": Interrupts,
     "arrays": Arrays,

@@ -104,6 +104,7 @@ def test_a_choice_that_a_limit_of_time_had_a_part_in_has_its_own_exit_code(
     plugin.write_text(SLEEPY)
     monkeypatch.setattr(workers, "_TIMES", 0.0)
     monkeypatch.setattr(workers, "_LEAST_LIMIT", 5.0)
+    monkeypatch.setattr(workers, "_WAITING", 1.0)
     monkeypatch.setattr(choice, "find_candidates", lambda _: ("linear", "sleepy"))
     effort = ("--effort", "high", "--plugin", plugin)
     assert cli("fill", walk, *effort, "--out", out) == ExitCode.NOT_REPEATABLE == 6

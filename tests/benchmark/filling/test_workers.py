@@ -37,6 +37,7 @@ def test_models_that_break_say_why_and_the_others_go_on(attempts):
 @pytest.mark.slow
 def test_a_model_that_hangs_is_stopped_and_one_that_breaks_is_not(attempts, monkeypatch):
     monkeypatch.setattr(workers, "_LEAST_LIMIT", 1.5)
+    monkeypatch.setattr(workers, "_WAITING", 1.0)
     hangs, linear, raises = attempts("hangs", "linear", "raises", seconds=0.01)
     assert hangs.stopped
     assert hangs.prediction is None
@@ -46,14 +47,23 @@ def test_a_model_that_hangs_is_stopped_and_one_that_breaks_is_not(attempts, monk
     assert not raises.stopped
 
 
+def test_a_model_that_works_too_long_is_stopped_by_the_work_that_it_did(attempts, monkeypatch):
+    """Not by how long that took, which other work on the machine decides."""
+    monkeypatch.setattr(workers, "_LEAST_LIMIT", 0.5)
+    monkeypatch.setattr(workers, "_WAITING", 1000.0)
+    (spins,) = attempts("spins", seconds=0.01)
+    assert spins.stopped
+    assert "of work" in spins.failure
+
+
 @pytest.mark.parametrize(("seconds", "limit"), [(0.001, 120.0), (5.9, 120.0), (100.0, 2000.0)])
 def test_the_limit_is_far_above_what_is_predicted(monkeypatch, seconds, limit):
     """A busy machine takes longer, and no choice may depend on that."""
     limits = []
     with Workers(1) as some:
-        monkeypatch.setattr(some._pool, "submit", lambda *arguments: limits.append(arguments[-1]))
+        monkeypatch.setattr(some._pool, "submit", lambda *arguments: limits.append(arguments[-2:]))
         some.submit("linear", None, seconds)
-    assert limits == [limit]
+    assert limits == [(limit, 5 * limit)]
 
 
 def test_a_model_that_takes_all_memory_is_stopped(attempts):
