@@ -25,9 +25,9 @@ from mocapbench.datasets import Mask
 __all__ = ["EFFORTS", "Choice", "choose", "require_room"]
 
 EFFORTS: Mapping[str, tuple[float, float]] = {
-    "low": (3.5, 0.5),
-    "normal": (14.0, 2.0),
-    "high": (140.0, 20.0),
+    "low": (3.5, 0.25),
+    "normal": (14.0, 1.0),
+    "high": (140.0, 10.0),
 }
 """How much work, predicted in seconds of a core, a choice may take: so much, and so much more for
 each 100,000 entries of the recording."""

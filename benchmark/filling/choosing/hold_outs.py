@@ -3,14 +3,16 @@
 A hold-out takes the recording with its real gaps, and hides copies of them elsewhere: of the same
 lengths, in the same channels, those together that occur together. Gaps at the recording's ends,
 which have frames on one side only, are copied where there are no others; then the hold-out begins
-or ends with the copy.
+or ends with the copy. Of a long recording, each hold-out is another excerpt: what a model costs
+there does not grow with the recording, so that the dearest are compared, too.
 """
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -21,12 +23,16 @@ from mocapbench.benchmark.filling.choosing.layout import EpisodeLayout, EpisodeQ
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.filling.gaps import Episode, Gap, find_gaps, group_gaps
 
-__all__ = ["HeldOutGap", "HoldOut", "has_room", "make_hold_outs"]
+__all__ = ["EXCERPT", "HeldOutGap", "HoldOut", "has_room", "make_hold_outs"]
 
 MOST_HOLD_OUTS, ENOUGH_GAPS = 24, 24
 """Hold-outs are made until there are so many, or so many held-out gaps of each kind."""
 FEWEST_HOLD_OUTS, MOST_ENTRIES = 3, 40_000_000
 """Of long recordings there are fewer: no more than have so many entries (320 MB) in all."""
+EXCERPT, _BESIDE_GAPS = 3000, 10
+"""Frames of an excerpt: so many, or so many times as many as the longest gaps that go together.
+
+Models that are fitted anew to each part of a long recording have parts of about as many."""
 _REPEATS = 10
 """Hold-outs that may repeat others before no more are made."""
 
@@ -110,19 +116,31 @@ class _Maker:
         self._kinds = tell_kinds(problem)
         self._used = np.zeros(len(problem.given.times), dtype=bool)
         self._queue = EpisodeQueue(self._group_by_kind(), rng)
+        excerpts = _cut_excerpts(problem)
+        self._excerpts = deque(excerpts[number] for number in rng.permutation(len(excerpts)))
         self.n_kinds = len({kind for kinds in self._kinds.values() for kind in kinds})
-        self.most = min(MOST_HOLD_OUTS, max(FEWEST_HOLD_OUTS, MOST_ENTRIES // problem.target.size))
+        n_entries = problem.target.size // len(excerpts)
+        self.most = min(MOST_HOLD_OUTS, max(FEWEST_HOLD_OUTS, MOST_ENTRIES // n_entries))
 
     def make(self) -> HoldOut | None:
         """Return one more hold-out; None if there is no room."""
-        layout = EpisodeLayout(~self._problem.given.visible, self._used, self._rng)
+        whole = 0, len(self._used)
+        for start, stop in (*self._excerpts, whole):
+            layout = EpisodeLayout(~self._problem.given.visible, self._used, self._rng)
+            layout.confine(start, stop)
+            self._place_copies(layout)
+            self._excerpts.rotate(-1)
+            if layout.copies:
+                return self._hide_copies(layout)
+        return None
+
+    def _place_copies(self, layout: EpisodeLayout) -> None:
         if self._queue:
             layout.place_between(self._queue)
         else:
             first, last = _find_gaps_at_the_ends(self._problem)
             layout.begin(first)
             layout.end(last)
-        return self._hide_copies(layout) if layout.copies else None
 
     def _group_by_kind(self) -> list[list[Episode]]:
         """Return the episodes of the gaps that are not at an end, by the kind of the longest."""
@@ -154,6 +172,15 @@ class _Maker:
         for copy, original in layout.copies:
             for kind, channels in self._kinds[original].items():
                 yield kind, replace(copy, channels=channels), replace(original, channels=channels)
+
+
+def _cut_excerpts(problem: GapProblem) -> list[tuple[int, int]]:
+    """Return the first frame of each excerpt and the one after its last, all about as long."""
+    longest = max(map(len, find_gaps(problem.target)), default=0)
+    n_frames = len(problem.given.times)
+    n = max(n_frames // max(EXCERPT, _BESIDE_GAPS * longest), 1)
+    bounds = np.linspace(0, n_frames, n + 1).astype(int).tolist()
+    return [*pairwise(bounds)]
 
 
 def _find_gaps_at_the_ends(problem: GapProblem) -> tuple[list[Gap], list[Gap]]:

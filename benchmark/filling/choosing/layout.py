@@ -74,21 +74,26 @@ class EpisodeLayout:
         self.start, self.stop = 0, len(hidden)
         self.copies: list[tuple[Gap, Gap]] = []
 
+    def confine(self, start: int, stop: int) -> None:
+        """Have the hold-out begin and end at frames, between which all further copies lie."""
+        self.start, self.stop = start, stop
+        self.blocked[:start] = True
+        self.blocked[stop:] = True
+
     def begin(self, gaps: Sequence[Gap]) -> None:
         """Have the hold-out begin with copies of ``gaps``, within the first third."""
-        copy = self._place(Episode(tuple(gaps)), 0, self.stop // 3) if gaps else None
+        third = (self.stop - self.start) // 3
+        copy = self._place(Episode(tuple(gaps)), self.start, self.start + third) if gaps else None
         if copy:
-            self.start = copy.start
-            self.blocked[: copy.start] = True
+            self.confine(copy.start, self.stop)
 
     def end(self, gaps: Sequence[Gap]) -> None:
         """Have the hold-out end with copies of ``gaps``, within the last third."""
         length = max((len(gap) for gap in gaps), default=0)
-        first = 2 * self.stop // 3 - length
-        copy = self._place(Episode(tuple(gaps)), max(first, 0), self.stop) if gaps else None
+        first = max(self.start + 2 * (self.stop - self.start) // 3 - length, self.start)
+        copy = self._place(Episode(tuple(gaps)), first, self.stop) if gaps else None
         if copy:
-            self.stop = copy.stop
-            self.blocked[copy.stop :] = True
+            self.confine(self.start, copy.stop)
 
     def place_between(self, queue: EpisodeQueue) -> None:
         """Place copies of the episodes of a queue, as many entries as a hold-out may hide, or one.

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.filling.choosing.hold_outs import has_room, make_hold_outs
+from mocapbench.benchmark.filling.choosing.hold_outs import EXCERPT, has_room, make_hold_outs
 from mocapbench.benchmark.filling.choosing.kinds import Kind, tell_kinds
 from mocapbench.benchmark.filling.choosing.scores import list_gaps
 from mocapbench.benchmark.filling.gap_problem import GapProblem
@@ -71,6 +71,34 @@ def test_no_two_hold_outs_are_alike_however_short_the_recording(n_frames, length
     hold_outs = make_hold_outs(GapProblem(whole.hide(target), target), np.random.default_rng(seed))
     hidden = [hold_out.problem.target.tobytes() for hold_out in hold_outs]
     assert len(set(hidden)) == len(hidden)
+
+
+def test_hold_outs_of_a_long_recording_are_excerpts_that_share_no_frames():
+    """So what a model costs in one does not grow with the recording."""
+    n_frames = 4 * EXCERPT
+    target = np.zeros((n_frames, 3), dtype=bool)
+    target[100:150, 0] = target[9000:9100, 1] = True
+    whole = Recording(
+        "r", np.arange(n_frames) / 10, np.ones((n_frames, 3)), ("a", "b", "c"), ("",) * 3
+    )
+    hold_outs = make_hold_outs(GapProblem(whole.hide(target), target), np.random.default_rng(0))
+    starts = [round(one.problem.given.times[0] * 10) for one in hold_outs]
+    assert {*starts} < {0, EXCERPT, 2 * EXCERPT, 3 * EXCERPT}
+    assert len({*starts}) == len(starts) > 2
+    assert all(len(one.problem.given.times) == EXCERPT for one in hold_outs)
+    for start, one in zip(starts, hold_outs, strict=True):
+        there = target[start : start + EXCERPT]
+        np.testing.assert_array_equal(one.problem.given.visible, ~(there | one.problem.target))
+
+
+def test_an_excerpt_is_far_longer_than_a_gap():
+    n_frames, length = 4 * EXCERPT, 600
+    target = np.zeros((n_frames, 2), dtype=bool)
+    target[300 : 300 + length, 0] = True
+    whole = Recording("r", np.arange(n_frames) / 10, np.ones((n_frames, 2)), ("a", "b"), ("", ""))
+    for one in make_hold_outs(GapProblem(whole.hide(target), target), np.random.default_rng(0)):
+        assert len(one.problem.given.times) >= 10 * length
+        assert {len(gap.copy) for gap in one.gaps} == {length}
 
 
 def test_gaps_at_the_ends_are_tried_at_the_ends():
