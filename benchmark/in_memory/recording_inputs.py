@@ -191,7 +191,7 @@ def _read_array(
     source: ArrayOfAny,
     rate: float | None = None,
     names: Sequence[str] | None = None,
-    units: Sequence[str] | None = None,
+    units: str | Sequence[str] = "",
     name: str = "recording",
 ) -> Recording:
     if source.ndim != 2 or not source.size:
@@ -209,6 +209,6 @@ def _read_array(
         raise ValueError(
             f"expected names= of {n_channels} channels, as the array has, got {len(channels)}"
         )
-    kinds = [""] * n_channels if units is None else list(units)
+    kinds = [units] * n_channels if isinstance(units, str) else list(units)
     times = np.arange(n_frames) / rate
     return unwrap_angles(Recording(name, times, source, tuple(channels), tuple(kinds)))
