@@ -43,8 +43,7 @@ from mocapbench.baselines.gp.solvers.planner import (
     solver_names,
     with_mapper,
 )
-from mocapbench.baselines.gp.solvers.solver import Solver
-from mocapbench.baselines.gp.solvers.threads import thread_mapper
+from mocapbench.baselines.gp.solvers.solver import Solver, thread_mapper
 from mocapbench.baselines.gp.training.coordinates import Coordinates
 from mocapbench.baselines.gp.training.maximum_likelihood import (
     Budget,

@@ -32,12 +32,10 @@ from joblib import effective_n_jobs
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
-from mocapbench.baselines.gp.prior.sampling import draw_layer
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.solvers.block import Target
 from mocapbench.baselines.gp.solvers.planner import PLANS, with_mapper
-from mocapbench.baselines.gp.solvers.solver import BlockPosterior, Solver
-from mocapbench.baselines.gp.solvers.threads import thread_mapper
+from mocapbench.baselines.gp.solvers.solver import BlockPosterior, Solver, thread_mapper
 from mocapbench.baselines.protocols import SampleByFrameByChannel
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Frames
@@ -158,7 +156,7 @@ class FittedProcess:
         top, *below = self.parameters.layers.values()
         draws = np.zeros((n_samples, len(times), len(self.scaling.scale)))
         for layer in below or [top]:
-            draws += draw_layer(self.kernel, layer, times, n_samples, rng)
+            draws += layer.draw(self.kernel, times, n_samples, rng)
         draws += np.sqrt(self.parameters.noise) * rng.standard_normal(draws.shape)
         return around + self.scaling.scale * draws
 
@@ -237,7 +235,7 @@ class FittedProcess:
         self, name: str, times: Frames, n_samples: int, rng: np.random.Generator
     ) -> Array:
         """Return (n, M, D) draws of a layer."""
-        return draw_layer(self.kernel, self.parameters.layers[name], times, n_samples, rng)
+        return self.parameters.layers[name].draw(self.kernel, times, n_samples, rng)
 
     def _layer_between(self, name: str, times: Frames, others: Frames) -> Array:
         """Return Σ_q B_q ⊗ k_q of a layer between times (M,) and others (N,), (D, M, D, N)."""

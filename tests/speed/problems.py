@@ -8,7 +8,6 @@ import numpy as np
 
 from mocapbench.baselines.gp.prior.kernels import KERNELS, StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParameters, Parameters
-from mocapbench.baselines.gp.prior.sampling import draw_layer
 from mocapbench.baselines.gp.reduction.hierarchy import reduce_hierarchy
 from mocapbench.baselines.gp.reduction.one_layer import separate_replicates
 from mocapbench.baselines.gp.reduction.reduction import Reduction
@@ -97,8 +96,7 @@ def pose(size: Size) -> Problem:
     )
     n_draws = {PARENT: 1, CHILD: size.n_replicates}
     curves = sum(
-        draw_layer(kernel, layer, times, n_draws[name], rng)
-        for name, layer in parameters.layers.items()
+        layer.draw(kernel, times, n_draws[name], rng) for name, layer in parameters.layers.items()
     )
     observed = _observed(size, rng)
     noisy = curves.transpose(0, 2, 1) + np.sqrt(NOISE) * rng.standard_normal(observed.shape)

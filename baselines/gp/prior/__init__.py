@@ -1,1 +1,1 @@
-"""The prior: kernels, the parameters of layers, kernels as Markov processes, and draws."""
+"""The prior: kernels, layers with their parameters and draws, kernels as Markov processes."""

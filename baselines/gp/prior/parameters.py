@@ -26,6 +26,9 @@ PARENT = "parent"
 """Name of the layer g, the draw of which all replicates share."""
 CHILD = "child"
 """Name of the layer f − g, of which every replicate has an independent draw."""
+JITTER = 1e-10
+"""Variance added to a kernel matrix that is drawn from, relative to the kernel's. Rounding leaves
+the smallest eigenvalues of a smooth kernel below zero by some 1e-14."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +82,28 @@ class LayerParameters:
         kernels = kernel.value(lags, self.lengthscales[:, None, None])
         by_pair = matrices.reshape(n_components, -1).T @ kernels.reshape(n_components, -1)
         return by_pair.reshape(n_outputs, n_outputs, *lags.shape).transpose(0, 2, 1, 3)
+
+    def draw(
+        self, kernel: StationaryKernel, times: Array, n_samples: int, rng: np.random.Generator
+    ) -> Array:
+        """Return (n_samples, M, D) draws of Σ_q B_q ⊗ k_q at ``times`` (M,).
+
+        The covariance is not formed: a draw of a component is white noise multiplied by L in time,
+        k_q = L Lᵀ, and by [W, √diag κ] in outputs (docs/mathematics/prediction.md, section 9).
+        Equal times get equal values. Rounding, which differs among processors, changes draws by
+        little: the Cholesky factor is continuous in the matrix, and the roots of κ count without
+        their sign.
+        """
+        grid, places = np.unique(times, return_inverse=True)
+        total = np.zeros((n_samples, len(grid), self.kappa_roots.shape[1]))
+        components = zip(self.lengthscales, self.weights, self.kappa_roots, strict=True)
+        for lengthscale, columns, kappa_roots in components:
+            gram = kernel.value(np.subtract.outer(grid, grid), float(lengthscale))
+            root = np.linalg.cholesky(gram + JITTER * np.eye(len(grid)))
+            mixing = np.hstack([columns, np.diag(np.abs(kappa_roots))])
+            white = rng.standard_normal((n_samples, len(grid), mixing.shape[1]))
+            total += root @ white @ mixing.T
+        return total[:, places]
 
     def zeros(self) -> LayerParameters:
         """Return the layer of the same shapes whose free coordinates are all 0."""

@@ -13,9 +13,8 @@ from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.kronecker import Kronecker
 from mocapbench.baselines.gp.solvers.latent_split.split_solver import LatentSplit
-from mocapbench.baselines.gp.solvers.solver import Solver
+from mocapbench.baselines.gp.solvers.solver import Mapper, Solver
 from mocapbench.baselines.gp.solvers.state_space.state_solver import StateSpace
-from mocapbench.baselines.gp.solvers.threads import Mapper
 
 __all__ = ["PLANS", "Plan", "describe_work", "solver_names", "with_mapper", "work"]
 

@@ -12,24 +12,38 @@ For a `Block` with covariance :math:`K(\theta)` and data vectors :math:`z_r` a s
   :math:`\tfrac{\rho}{h}\operatorname{diag}(K_{**} - K_* K^{-1} K_*^\top)`.
 
 All solvers are exact. They differ in cost only, which `Solver.work` estimates.
+
+They do the same small factorisation for every output. A solver takes a *mapper*: the builtin
+``map``, or one that distributes the calls over threads. Each result is computed by one thread and
+results come in order, so that they do not depend on the number of threads.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
-from typing import ClassVar
+from typing import ClassVar, Protocol, TypeVar
 
 import numpy as np
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
-from mocapbench.baselines.gp.solvers.threads import Mapper
 from mocapbench.basics.arrays import Array
 
-__all__ = ["BlockPosterior", "SingularCovarianceError", "Solver", "refuse_singular"]
+__all__ = [
+    "BlockPosterior",
+    "Mapper",
+    "SingularCovarianceError",
+    "Solver",
+    "refuse_singular",
+    "thread_mapper",
+]
+
+T = TypeVar("T")
+U = TypeVar("U")
 
 
 class SingularCovarianceError(np.linalg.LinAlgError):
@@ -58,6 +72,23 @@ def refuse_singular(parameters: Parameters) -> Iterator[None]:
         raise SingularCovarianceError(parameters) from None
 
 
+class Mapper(Protocol):
+    """A function with the signature of the builtin ``map`` for one iterable."""
+
+    def __call__(self, function: Callable[[T], U], items: Iterable[T], /) -> Iterable[U]:
+        """Return the function of every item, in order."""
+
+
+@contextmanager
+def thread_mapper(n_threads: int) -> Iterator[Mapper]:
+    """Give a mapper over ``n_threads`` threads."""
+    if n_threads == 1:
+        yield map
+        return
+    with ThreadPoolExecutor(n_threads) as pool:
+        yield pool.map
+
+
 class BlockPosterior(ABC):
     """The distribution of a block's functions given the block's data."""
 
@@ -83,7 +114,7 @@ class Solver(ABC):
         The kernel of every component.
     mapper : callable, default=map
         Calls a function for every output, like the builtin ``map``, possibly in threads
-        (`mocapbench.baselines.gp.solvers.threads`).
+        (`thread_mapper`).
     """
 
     name: ClassVar[str]

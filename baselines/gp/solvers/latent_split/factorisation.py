@@ -17,8 +17,7 @@ from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.entries import Entries
 from mocapbench.baselines.gp.solvers.latent_split.independent_parts import invert_parts
 from mocapbench.baselines.gp.solvers.latent_split.latents import Latents
-from mocapbench.baselines.gp.solvers.solver import refuse_singular
-from mocapbench.baselines.gp.solvers.threads import Mapper
+from mocapbench.baselines.gp.solvers.solver import Mapper, refuse_singular
 from mocapbench.basics.arrays import Array
 
 __all__ = ["Factorisation"]

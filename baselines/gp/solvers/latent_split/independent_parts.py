@@ -17,8 +17,7 @@ from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.entries import pick_entries, place_entries
-from mocapbench.baselines.gp.solvers.solver import refuse_singular
-from mocapbench.baselines.gp.solvers.threads import Mapper
+from mocapbench.baselines.gp.solvers.solver import Mapper, refuse_singular
 from mocapbench.basics.arrays import Array
 
 __all__ = ["collect_gradient", "invert_parts", "pull_back_parts", "stack_slopes"]

@@ -36,7 +36,7 @@ from mocapbench.baselines.gp.solvers.latent_split.independent_parts import (
     pull_back_parts,
     stack_slopes,
 )
-from mocapbench.baselines.gp.solvers.threads import Mapper
+from mocapbench.baselines.gp.solvers.solver import Mapper
 from mocapbench.basics.arrays import Array
 
 __all__ = ["split_gradient"]

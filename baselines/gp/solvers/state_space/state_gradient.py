@@ -25,8 +25,12 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
-from mocapbench.baselines.gp.solvers.state_space.filter import FilterPass, StateMoments
-from mocapbench.baselines.gp.solvers.state_space.smoother import Message, backward_pass
+from mocapbench.baselines.gp.solvers.state_space.passes import (
+    FilterPass,
+    Message,
+    StateMoments,
+    backward_pass,
+)
 from mocapbench.baselines.gp.solvers.state_space.state_model import StateModel
 from mocapbench.basics.arrays import Array
 

@@ -2,10 +2,10 @@ r"""Inference by one pass forward and one pass backward through time.
 
 A Matérn kernel of half-integer order is the covariance of a Markov process
 (`mocapbench.baselines.gp.prior.markov`), so a block is a linear Gaussian state-space model
-(`state_model`). A Kalman filter (`filter`) gives the log-density, a backward pass (`smoother`) the
-posterior, and both together the gradient (`state_gradient`): docs/mathematics/solvers.md, section
-6. The cost is linear in the number of frames. Irregular times and hidden entries cost nothing
-extra, and further data vectors little, because all data vectors have the same covariances.
+(`state_model`). A Kalman filter gives the log-density, a backward pass the posterior (`passes`),
+and both together the gradient (`state_gradient`): docs/mathematics/solvers.md, section 6. The cost
+is linear in the number of frames. Irregular times and hidden entries cost nothing extra, and
+further data vectors little, because all data vectors have the same covariances.
 """
 
 from __future__ import annotations
@@ -18,11 +18,12 @@ from mocapbench.baselines.gp.prior.markov import is_markov
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.solvers.solver import BlockPosterior, Solver
-from mocapbench.baselines.gp.solvers.state_space.filter import FilterPass, predict_state
-from mocapbench.baselines.gp.solvers.state_space.smoother import (
+from mocapbench.baselines.gp.solvers.state_space.passes import (
+    FilterPass,
     backward_pass,
     carry_back,
     no_message,
+    predict_state,
 )
 from mocapbench.baselines.gp.solvers.state_space.state_gradient import state_gradient
 from mocapbench.baselines.gp.solvers.state_space.state_model import StateModel

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.gp.prior.kernels import KERNELS
-from mocapbench.baselines.gp.prior.sampling import draw_layer
 
 
 @pytest.mark.parametrize("name", KERNELS)
@@ -13,7 +12,7 @@ def test_draws_have_the_covariance_of_the_layer(name, rank, case):
     parameters = case(np.random.default_rng(0), n_components=2, rank=rank).parameters
     layer, times = parameters.layers["child"], np.array([0.0, 0.3, 1.1])
     n_samples = 40_000
-    draws = draw_layer(KERNELS[name], layer, times, n_samples, np.random.default_rng(1))
+    draws = layer.draw(KERNELS[name], times, n_samples, np.random.default_rng(1))
     lags = np.subtract.outer(times, times)
     kernels = KERNELS[name].value(lags, layer.lengthscales[:, None, None])
     expected = np.einsum("qde,qst->sdte", layer.matrices, kernels).reshape(6, 6)
@@ -28,12 +27,8 @@ def test_draws_depend_only_on_the_seed_and_are_functions_of_time(case):
     parameters = case(np.random.default_rng(0), n_components=2, rank=0).parameters
     for kernel in KERNELS.values():
         first, again = (
-            draw_layer(
-                kernel,
-                parameters.layers["child"],
-                np.array([0.4, 2.0, 0.4]),
-                5,
-                np.random.default_rng(3),
+            parameters.layers["child"].draw(
+                kernel, np.array([0.4, 2.0, 0.4]), 5, np.random.default_rng(3)
             )
             for _ in range(2)
         )
@@ -52,7 +47,6 @@ def test_rounding_changes_draws_by_little(name, case):
         kappa_roots=-layer.kappa_roots,
     )
     first, again = (
-        draw_layer(KERNELS[name], one, times, 5, np.random.default_rng(3))
-        for one in (layer, rounded)
+        one.draw(KERNELS[name], times, 5, np.random.default_rng(3)) for one in (layer, rounded)
     )
     np.testing.assert_allclose(first, again, atol=1e-6 * np.abs(first).max())

@@ -3,9 +3,15 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.gp.solvers.latent_split.split_solver import LatentSplit
-from mocapbench.baselines.gp.solvers.threads import thread_mapper
+from mocapbench.baselines.gp.solvers.solver import thread_mapper
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.datasets import Recording
+
+
+@pytest.mark.parametrize("n_threads", [1, 2, 3])
+def test_results_come_in_order(n_threads):
+    with thread_mapper(n_threads) as mapper:
+        assert list(mapper(lambda x: x * x, range(20))) == [x * x for x in range(20)]
 
 
 def test_the_likelihood_does_not_depend_on_the_number_of_threads(case):
