@@ -7,6 +7,8 @@ import errno
 from collections.abc import Collection
 from enum import IntEnum
 
+from mocapbench.basics.words import join_names
+
 __all__ = [
     "ExitCode",
     "Interruption",
@@ -14,7 +16,6 @@ __all__ = [
     "UnknownNameError",
     "UnregisteredNameError",
     "UsageError",
-    "first_of",
 ]
 
 
@@ -82,12 +83,6 @@ _MOST_NAMES = 20
 """Known names that a message lists at most."""
 
 
-def first_of(names: Collection[str], most: int) -> str:
-    """Return the first ``most`` names, and how many more there are."""
-    more = len(names) - most
-    return ", ".join([*names][:most]) + (f" and {more} more" if more > 0 else "")
-
-
 class UnknownNameError(UsageError):
     """A name that is not known, with the nearest ones that are."""
 
@@ -96,7 +91,7 @@ class UnknownNameError(UsageError):
         advice = (
             f"did you mean {' or '.join(near)}?"
             if near
-            else f"known: {first_of(known, _MOST_NAMES)}"
+            else f"known: {join_names(known, _MOST_NAMES)}"
         )
         super().__init__(f"unknown {kind} {name!r}: {advice}")
 

@@ -7,7 +7,6 @@ from collections.abc import Collection, Iterator, Sequence
 import numpy as np
 
 from mocapbench.basics.words import format_count, join_names
-from mocapbench.benchmark.errors import first_of
 from mocapbench.benchmark.filling.choosing.choice import Choice
 from mocapbench.benchmark.filling.choosing.kinds import Kind
 from mocapbench.benchmark.filling.choosing.ranking import Ranking
@@ -213,10 +212,8 @@ def _remark_on_ends(request: FillRequest) -> Iterator[str]:
 
 def _describe_unlabelled(markers: Sequence[str]) -> str:
     stay, them = ("stays as it is", "it") if len(markers) == 1 else ("stay as they are", "them")
-    return (
-        f"{format_count(len(markers), 'unlabelled marker')} ({first_of(markers, _NAMED)}) {stay}: "
-        f"name {them} with --channels to fill {them}."
-    )
+    count, names = format_count(len(markers), "unlabelled marker"), join_names(markers, _NAMED)
+    return f"{count} ({names}) {stay}: name {them} with --channels to fill {them}."
 
 
 def _describe_outputs(points: Sequence[str]) -> str:
@@ -225,8 +222,8 @@ def _describe_outputs(points: Sequence[str]) -> str:
     )
     stay, them = ("stays as it is", "it") if len(points) == 1 else ("stay as they are", "them")
     return (
-        f"{count} ({first_of(points, _NAMED)}) {stay}, as the model gives {them} anew from filled "
-        f"markers: name {them} with --channels to fill {them}."
+        f"{count} ({join_names(points, _NAMED)}) {stay}, as the model gives {them} anew from "
+        f"filled markers: name {them} with --channels to fill {them}."
     )
 
 

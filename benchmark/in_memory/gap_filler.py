@@ -11,7 +11,7 @@ from sklearn.utils import Tags
 from sklearn.utils.validation import check_is_fitted, validate_data
 
 from mocapbench.basics.arrays import Array
-from mocapbench.benchmark.errors import first_of
+from mocapbench.basics.words import join_names
 from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.benchmark.in_memory.gap_filling import solve_request
 from mocapbench.benchmark.in_memory.own_models import ModelLike, name_model, require_model
@@ -118,7 +118,7 @@ class GapFiller(OneToOneFeatureMixin, TransformerMixin, BaseEstimator):  # type:
             lost = [recordings[0].channels[k] for k in np.flatnonzero(~seen)]
             raise ValueError(
                 "expected a visible entry of each channel, here or in fit, got none of "
-                f"{first_of(lost, _NAMED)}; leave it out"
+                f"{join_names(lost, _NAMED)}; leave it out"
             )
 
     def __sklearn_tags__(self) -> Tags:

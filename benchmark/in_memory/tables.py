@@ -10,8 +10,7 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.words import format_count
-from mocapbench.benchmark.errors import first_of
+from mocapbench.basics.words import format_count, join_names
 from mocapbench.datasets import FrameByChannel, Frames, Mask, Recording, unwrap_angles
 from mocapbench.datasets.formats.building import recording_of
 from mocapbench.datasets.formats.missing_rows import count_missing_rows
@@ -86,7 +85,7 @@ def _check_columns(names: Sequence[str], table: pd.DataFrame) -> None:
     others = [n for n, kind in zip(names, kinds, strict=True) if not _is_number(kind)]
     if others:
         raise ValueError(
-            f"expected columns of numbers, got others in {first_of(others, _NAMED)}; leave them "
+            f"expected columns of numbers, got others in {join_names(others, _NAMED)}; leave them "
             "out, or convert them by pandas.to_numeric"
         )
     if all(pd.api.types.is_integer_dtype(kind) for kind in kinds):

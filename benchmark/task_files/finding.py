@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mocapbench.benchmark.errors import first_of
+from mocapbench.basics.words import join_names
 from mocapbench.benchmark.files import ENTRIES, GAPS
 from mocapbench.benchmark.registry import FORMATS
 from mocapbench.benchmark.task_files.document import Document
@@ -59,7 +59,7 @@ def _matching(
     for pattern, paths in found.items():
         if not paths:
             there = readable_files(folder)
-            holds = f"it holds {first_of(there, _SHOWN) or 'none'}"
+            holds = f"it holds {join_names(there, _SHOWN)}"
             expected = f"files in {folder} that match {pattern!r}"
             raise document.error(key, expected, "none", f"of recordings {holds}")
     return tuple(dict.fromkeys(path for paths in found.values() for path in paths))

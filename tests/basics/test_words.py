@@ -83,6 +83,7 @@ def test_an_irregular_plural_is_named():
 @pytest.mark.parametrize(
     ("names", "text"),
     [
+        ([], "none"),
         (["a"], "a"),
         (["a", "b"], "a and b"),
         (["a", "b", "c"], "a, b and c"),

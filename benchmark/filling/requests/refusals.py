@@ -8,8 +8,8 @@ from operator import itemgetter
 
 import numpy as np
 
-from mocapbench.basics.words import format_count
-from mocapbench.benchmark.errors import UsageError, first_of
+from mocapbench.basics.words import format_count, join_names
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.gaps import Gap, count_entries, find_gaps
 from mocapbench.benchmark.filling.requests.names import (
     match_pattern,
@@ -42,7 +42,7 @@ class NothingToFillError(UsageError):
 def explain_no_channel(channels: Sequence[str], pattern: str) -> str:
     """Return that a pattern matches no channel, and names that are near to it."""
     near = _find_near(channels, pattern)
-    known = first_of([*dict.fromkeys(name_owners(channels))], _MOST_KNOWN)
+    known = join_names([*dict.fromkeys(name_owners(channels))], _MOST_KNOWN)
     advice = f"did you mean {' or '.join(near)}?" if near else f"there are {known}."
     return f"expected the name of a marker, joint or channel, got {pattern!r}: {advice} {_PATTERNS}"
 
@@ -61,7 +61,7 @@ def explain_no_named_gap(channels: Sequence[str], target: Mask, pattern: str, te
     nearest = [gap for _, gap in sorted(gaps, key=itemgetter(0))]
     return (
         f"expected a gap to fill, got {text!r}, which names none{advice} "
-        f"Gaps to fill are {first_of(nearest, _MOST_KNOWN)}. {_PATTERNS}"
+        f"Gaps to fill are {join_names(nearest, _MOST_KNOWN)}. {_PATTERNS}"
     )
 
 
@@ -93,7 +93,7 @@ def explain_no_gap(
         names = name_markers((*unlabelled, *outputs))
         return (
             f"{recording.name}: expected a gap in a labelled marker, got hidden entries of "
-            f"{' and '.join(filter(None, counts))} only ({first_of(names, _NAMED)}); "
+            f"{' and '.join(filter(None, counts))} only ({join_names(names, _NAMED)}); "
             "--channels '*' fills all channels"
         )
     which = f"entries of {', '.join(patterns)}" if patterns else "entries"
@@ -109,7 +109,7 @@ def explain_nothing_known(recording: Recording, unknown: Sequence[str]) -> str:
     """Return that of no channel to fill anything is visible."""
     return (
         f"{recording.name}: expected a visible entry of a channel to fill, got none of "
-        f"{first_of(name_markers(unknown), _NAMED)}; name files that have these with --train"
+        f"{join_names(name_markers(unknown), _NAMED)}; name files that have these with --train"
     )
 
 
@@ -125,7 +125,7 @@ def explain_only_ends(
             "name what to fill with --frames, such as 120:180"
         )
     entries = format_count(count_entries(open_ends), "hidden entry", "hidden entries")
-    names = first_of(name_hidden_markers(recording.channels, open_ends), _NAMED)
+    names = join_names(name_hidden_markers(recording.channels, open_ends), _NAMED)
     return (
         f"{expected}, but {entries} before the first visible one or after the last ({names}); "
         "--ends fill fills them"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection
 
 __all__ = ["encodable", "format_count", "join_names", "printable"]
 
@@ -27,10 +27,11 @@ def format_count(count: int, noun: str, plural: str = "") -> str:
     return f"{count} {noun}" if count == 1 else f"{count} {plural or f'{noun}s'}"
 
 
-def join_names(names: Sequence[str], most: int) -> str:
-    """Return one or more names in a row, the first ``most`` of them: "a, b and 3 more"."""
+def join_names(names: Collection[str], most: int) -> str:
+    """Return names in a row, the first ``most`` of them: "a, b and 3 more"; "none" without any."""
     more = len(names) - most
-    *others, last = [*names[:most], f"{more} more"] if more > 0 else names
+    first = [*names][:most] or ["none"]
+    *others, last = [*first, f"{more} more"] if more > 0 else first
     return f"{', '.join(others)} and {last}" if others else last
 
 

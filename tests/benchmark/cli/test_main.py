@@ -11,6 +11,7 @@ from plans import plan_of
 from typer.main import get_command
 
 import mocapbench
+from mocapbench.basics.words import join_names
 from mocapbench.benchmark import gate
 from mocapbench.benchmark.cli.commands import COMMANDS
 from mocapbench.benchmark.cli.main import main
@@ -456,7 +457,7 @@ def test_an_unknown_command_exits_with_2_and_names_the_nearest(cli, wrong, meant
 
 def test_a_command_like_no_other_exits_with_2_and_lists_them(cli):
     assert cli("@@@@") == 2
-    assert cli.printed == f"error: unknown command '@@@@': known: {', '.join(COMMANDS)}"
+    assert cli.printed == f"error: unknown command '@@@@': known: {join_names(COMMANDS, 20)}"
 
 
 def test_a_run_that_another_one_writes_to_is_refused(cli, tmp_path):

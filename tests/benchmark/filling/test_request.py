@@ -97,9 +97,7 @@ def test_named_frames_are_filled_wherever_they_are(waves, hidden, frames):
 @pytest.mark.parametrize("lost", [[], [3]])
 def test_where_only_ends_are_hidden_the_option_is_said(waves, hidden, lost):
     recording = waves().hide(hidden((0, 20, [0, 1, 2, 3]), (0, 30, [0, 1]), (0, 200, lost)))
-    said = (
-        r"20 hidden entries before .* after the last [(]hip.rx, hip.ry[)]; --ends fill fills them"
-    )
+    said = r"20 hidden entries before .* after the last [(]hip.rx and hip.ry[)]; --ends fill fills"
     with pytest.raises(NothingToFillError, match=said):
         select(recording, NamedEntries())
     blank = waves().hide(hidden((0, 20, [0, 1, 2, 3]), (0, 200, lost)))
@@ -190,7 +188,7 @@ def test_angles_beside_a_named_gap_are_unwrapped_across_it():
         ),
         (NamedEntries(frames=(150, 201)), "expected --frames within 0:200"),
         (NamedEntries(frames=(60, 60)), "the first before the last, got 60:60"),
-        (NamedEntries(channels=("(",)), r"got '\(': there are hip, knee, root. In a pattern"),
+        (NamedEntries(channels=("(",)), r"got '\(': there are hip, knee and root. In a pattern"),
         (NamedEntries(frames=(50, 100), max_gap=0.1), "raise --max-gap"),
         (NamedEntries(frames=(50, 51), max_gap=0.0), "expected a gap of 0 s or less, got 1 of"),
         (NamedEntries(frames=(50, 51), max_gap=math.nan), "expected a gap of nan s or less"),

@@ -37,7 +37,7 @@ WRONG = [
     ),
     (
         'files = "*.c3d"\n[hide]\nfraction = 0.2',
-        r"line 1, key files: .* that match '\*.c3d', got none; of recordings it holds a.csv, b.csv",
+        r"line 1, key files: .* that match '\*.c3d', got none; .* it holds a.csv and b.csv",
     ),
     (
         'files = "a.csv"',
