@@ -144,9 +144,9 @@ class _Maker:
 
     def _group_by_kind(self) -> list[list[Episode]]:
         """Return the episodes of the gaps that are not at an end, by the kind of the longest."""
-        ends = {gap for gaps in _find_gaps_at_the_ends(self._problem) for gap in gaps}
+        n_frames, gaps = len(self._problem.given.times), find_gaps(self._problem.target)
         groups: dict[Kind, list[Episode]] = {}
-        for episode in group_gaps([g for g in find_gaps(self._problem.target) if g not in ends]):
+        for episode in group_gaps([g for g in gaps if g.start > 0 and g.stop < n_frames]):
             kind = min(self._kinds[max(episode.gaps, key=len)])
             groups.setdefault(kind, []).append(episode)
         return [groups[kind] for kind in sorted(groups)]
@@ -184,7 +184,11 @@ def _cut_excerpts(problem: GapProblem) -> list[tuple[int, int]]:
 
 
 def _find_gaps_at_the_ends(problem: GapProblem) -> tuple[list[Gap], list[Gap]]:
-    """Return the gaps at the beginning and those at the end of the recording."""
+    """Return the gaps at the beginning and those at the end of the recording.
+
+    Channels that are hidden throughout are left out: there is no place for a copy in them, nor for
+    gaps that were copied together with theirs.
+    """
     n_frames, gaps = len(problem.given.times), find_gaps(problem.target)
-    first = [gap for gap in gaps if gap.start == 0]
+    first = [gap for gap in gaps if gap.start == 0 and gap.stop < n_frames]
     return first, [gap for gap in gaps if gap.stop == n_frames and gap.start > 0]

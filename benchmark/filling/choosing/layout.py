@@ -90,7 +90,7 @@ class EpisodeLayout:
     def end(self, gaps: Sequence[Gap]) -> None:
         """Have the hold-out end with copies of ``gaps``, within the last third."""
         length = max((len(gap) for gap in gaps), default=0)
-        first = max(self.start + 2 * (self.stop - self.start) // 3 - length, self.start)
+        first = self.start + 2 * (self.stop - self.start) // 3 - length
         copy = self._place(Episode(tuple(gaps)), first, self.stop) if gaps else None
         if copy:
             self.confine(self.start, copy.stop)

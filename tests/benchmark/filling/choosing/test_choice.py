@@ -41,6 +41,13 @@ class Intervals(Imputer):
         return [Prediction.around(recording, 0.0, 1e-12) for recording in recordings]
 
 
+class Steadfast(Intervals):
+    """Fills, but not with calibrated intervals."""
+
+    def impute(self, recordings):
+        raise ValueError("expected more to be visible")
+
+
 @pytest.fixture
 def only(monkeypatch):
     """Return a function that leaves a few models to choose from, which take little work."""
@@ -195,6 +202,26 @@ def test_models_are_compared_without_calibration_and_the_intervals_of_the_best_a
     asked = [method for *_, method in workers.submitted]
     n = len(asked) - len(first)
     assert asked == ["impute_uncalibrated"] * n + ["impute"] * len(first)
+
+
+def test_intervals_are_checked_in_gaps_of_every_kind(waves, hidden, only, monkeypatch):
+    """However few hold-outs are checked, those with the first gap of a kind are among them."""
+    only("intervals")
+    monkeypatch.setattr(choice, "_CHECKED", 0)
+    mask = hidden((20, 24, [0]), (50, 90, [1]), (120, 180, [2]))
+    chosen = choose_for(GapProblem(waves().hide(mask), mask))
+    assert len(chosen.rankings) == 3
+    assert {*chosen.in_intervals} == {*chosen.rankings}
+
+
+def test_a_model_that_cannot_be_calibrated_is_chosen_without_intervals(waves, hidden, only):
+    only("steadfast")
+    MODELS.add("steadfast", Steadfast)
+    mask = hidden((50, 58, [0]))
+    chosen = choose_for(GapProblem(waves().hide(mask), mask))
+    assert only_ranking(chosen).order == ("steadfast",)
+    assert chosen.with_intervals == {"steadfast"}
+    assert not chosen.in_intervals
 
 
 def test_of_a_model_without_intervals_none_are_checked(waves, hidden, only):

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.filling.choosing import halving
-from mocapbench.benchmark.filling.choosing.halving import run_rungs
+from mocapbench.benchmark.filling.choosing.halving import Contender, run_rungs
 from mocapbench.benchmark.filling.choosing.hold_outs import make_hold_outs
 from mocapbench.benchmark.filling.choosing.kinds import Kind
 from mocapbench.benchmark.filling.choosing.scores import list_gaps
@@ -195,6 +195,13 @@ def test_a_model_that_exceeds_a_limit_is_told_from_one_that_fails(run):
         "slow": True,
         "bad": False,
     }
+
+
+@pytest.mark.parametrize("numbers", [[], [0, 0], [0, 3, 2]])
+def test_windows_are_those_of_the_hold_out_with_the_most_and_none_if_none_was_cut(numbers):
+    one, prediction = Contender("a"), PredictedEntries(np.zeros(1), None)
+    one.record([FillAttempt(prediction, n_windows=number) for number in numbers])
+    assert one.n_windows == max(numbers, default=0)
 
 
 def test_progress_counts_hold_outs_that_were_filled():

@@ -109,6 +109,16 @@ def test_gaps_at_the_ends_are_tried_at_the_ends():
         assert {gap.channels for gap in gaps if gap.stop == len(hold_out.problem.target)} == {(1,)}
 
 
+@pytest.mark.parametrize("end", [(0, 10, 0), (190, 10, 0)])
+def test_gaps_at_an_end_are_tried_whether_or_not_another_channel_is_lost(end):
+    alone, beside = (
+        make_hold_outs(problem(blocks), np.random.default_rng(0))
+        for blocks in ([end], [end, (0, N_FRAMES, 1)])
+    )
+    assert {gap.original.channels for gap in list_gaps(beside)} == {(0,)}
+    assert [g.copy for g in list_gaps(beside)] == [g.copy for g in list_gaps(alone)]
+
+
 def test_gaps_of_a_kind_get_about_equally_many_copies():
     asked = problem([(20, 12, 0), (80, 25, 1), (150, 15, 2)])
     hold_outs = make_hold_outs(asked, np.random.default_rng(0))

@@ -63,7 +63,8 @@ def test_every_wanted_entry_is_of_exactly_one_kind_and_its_unit_is_that_of_its_c
         ([0, 1, 2], ((100, 2, [5]),), "one marker or joint"),
         (range(8), (), "whole frames"),
         ([*range(6)], ((90, 40, [6, 7]),), "whole frames"),
-        ([*range(6)], ((90, 14, [6, 7]),), "several markers or joints"),
+        ([*range(6)], ((90, 16, [6, 7]),), "whole frames"),
+        ([*range(6)], ((90, 15, [6, 7]),), "several markers or joints"),
     ],
 )
 def test_the_extent_is_what_is_hidden_at_once_in_most_frames_to_be_filled_or_not(

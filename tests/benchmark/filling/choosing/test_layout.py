@@ -4,7 +4,7 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.filling.choosing.layout import EpisodeQueue
+from mocapbench.benchmark.filling.choosing.layout import EpisodeLayout, EpisodeQueue
 from mocapbench.benchmark.filling.gaps import Episode, Gap
 
 
@@ -49,3 +49,13 @@ def test_the_first_stays_the_first_until_it_is_popped():
 def test_without_episodes_nothing_is_copied():
     assert not make_queue()[0]
     assert make_queue(1)[0]
+
+
+@pytest.mark.parametrize(("stop", "begins"), [(10, True), (11, False)])
+def test_the_gap_that_a_hold_out_begins_with_lies_within_the_first_third_to_its_end(stop, begins):
+    """Of thirty frames, three before ``stop`` alone are visible, with one on each side."""
+    hidden = np.ones((30, 1), dtype=bool)
+    hidden[stop - 4 : stop + 1] = False
+    layout = EpisodeLayout(hidden, np.zeros(30, dtype=bool), np.random.default_rng(0))
+    layout.begin([Gap(0, 3, (0,))])
+    assert ((stop - 3, stop) in {(copy.start, copy.stop) for copy, _ in layout.copies}) is begins

@@ -71,6 +71,32 @@ def test_positions_do_not_change_the_order():
     assert ranking_of(errors, [0, 0, 0, 1]).order == ranking_of(errors).order == ("two", "one")
 
 
+@given(st.lists(st.tuples(st.floats(0.1, 10.0), st.integers(1, 5)), min_size=1, max_size=6))
+def test_a_held_out_gap_of_twice_the_weight_counts_as_two(gaps):
+    errors, counts = map(np.array, zip(*gaps, strict=True))
+    found = rank({"a": errors}, counts / counts.mean(), np.arange(len(gaps)))
+    assert found.means["a"] == pytest.approx(np.repeat(errors, counts).mean())
+
+
+@pytest.mark.parametrize("unit", [1e-3, 1e3])
+def test_the_unit_of_errors_changes_no_verdict(unit):
+    errors = {**ERRORS, "near": [1.4, 1.4, 1.3, 1.5, 1.4]}
+    found = ranking_of(errors)
+    other = ranking_of({model: unit * np.array(each) for model, each in errors.items()})
+    for verdict in ("order", "sharing", "near", "rivals"):
+        assert getattr(other, verdict) == getattr(found, verdict)
+    for model, interval in found.intervals.items():
+        assert other.intervals[model] == pytest.approx(np.multiply(interval, unit))
+
+
+@given(st.lists(st.floats(0.0, 10.0), min_size=5, max_size=8))
+def test_the_interval_of_a_mean_error_holds_it_and_nothing_below_0(errors):
+    found = ranking_of({"a": errors})
+    low, high = found.intervals["a"]
+    assert 0.0 <= low <= found.means["a"] * (1 + 1e-12)
+    assert found.means["a"] <= high * (1 + 1e-12)
+
+
 def problem(n_frames, *gaps, rng=None):
     """Ask for frames of two channels of one random walk, with a little noise."""
     rng = np.random.default_rng(0) if rng is None else rng
