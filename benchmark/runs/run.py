@@ -65,15 +65,20 @@ def run(
     log.tell_run_start(store.path, len(jobs), len(finished))
     if finished:
         console.print(f"{len(finished)} of {len(jobs)} jobs are in {store.path} already")
-    for job in todo:
-        if job.missing:
-            finished[job.key] = _without_data(job, config)
-            store.save(finished[job.key])
-            _log_end(log, finished[job.key], 0.0)
+    missing = [job for job in todo if job.missing]
+    finished |= {job.key: _record_missing(job, store, config, log) for job in missing}
     todo = [job for job in todo if not job.missing]
     for record in _compute_records(todo, store, config, backend, console, log=log, posed=posed):
         finished[record.key] = record
     return [finished[job.key] for job in jobs]
+
+
+def _record_missing(job: Job, store: RunDirectory, config: WorkerConfig, log: EventLog) -> Record:
+    """Return the record of a job whose recordings are not here, once it is in the store."""
+    record = _without_data(job, config)
+    store.save(record)
+    _log_end(log, record, 0.0)
+    return record
 
 
 def _compute_records(
@@ -99,18 +104,21 @@ def _compute_records(
             trained = models.load(job.training_key) if fit is None else None
             return Work(job, fit, tuple(store.damaged[already_damaged:]), trained)
 
-        def seconds_left() -> float:
-            return queue.time_left(backend.n_workers)
-
         outcomes = map(partial(_check_outcome, posed), execute(queue, work, config, spool, backend))
+        seconds_left = partial(queue.time_left, backend.n_workers)
         for outcome in watch(outcomes, len(jobs), seconds_left, console):
-            if outcome.fit is not None:
-                store.save_fit(outcome.record.fit_key, outcome.fit)
-            if outcome.trained is not None:
-                models.save(outcome.trained)
-            store.save(outcome.record)
+            _save_outcome(outcome, store, models)
             _log_end(log, outcome.record, outcome.seconds)
             yield outcome.record
+
+
+def _save_outcome(outcome: Outcome, store: RunDirectory, models: TrainedModels) -> None:
+    """Keep what a job made; the record last, since it says that all else is there."""
+    if outcome.fit is not None:
+        store.save_fit(outcome.record.fit_key, outcome.fit)
+    if outcome.trained is not None:
+        models.save(outcome.trained)
+    store.save(outcome.record)
 
 
 def _check_outcome(posed: PosedProblems, outcome: Outcome) -> Outcome:

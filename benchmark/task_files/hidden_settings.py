@@ -26,8 +26,7 @@ from mocapbench.benchmark.task_files.values import (
 
 __all__ = ["HIDE_KEYS", "RUN_KEYS", "Hidden", "Variant", "read_hidden"]
 
-_WAYS = ("frames", "fraction", "runs", "pattern-of")
-HIDE_KEYS = (*_WAYS, "channels")
+HIDE_KEYS = ("frames", "fraction", "runs", "pattern-of", "channels")
 RUN_KEYS = ("seconds", "count", "together")
 _TOGETHER = ("all", "joint", "channel")
 
@@ -86,40 +85,48 @@ def read_hidden(document: Document, address: Callable[[str], str]) -> Hidden:
         raise document.error("hide", "a table of what is hidden", "none", advice)
     document.require_known("hide", HIDE_KEYS)
     channels = read_channels(document, "hide.channels")
-    ways = [way for way in _WAYS if way in document.get("hide")]
-    match ways:
-        case []:
-            hide = partial(hide_spans, spans=((0, None),), channels=channels)
-            return Hidden((("", {}, hide),), whole_channels=True, repeats=True)
-        case ["frames"]:
-            spans = read_spans(document, "hide.frames", [])
-            hide = partial(hide_spans, spans=spans, channels=channels)
-            return Hidden((("", {}, hide),), whole_frames=not channels, repeats=True)
-        case ["fraction"]:
-            return Hidden(_fractions(document, channels), scattered=True)
-        case ["runs"]:
-            return _runs(document, channels)
-        case ["pattern-of"]:
-            path = document.read(
-                "hide.pattern-of", "", is_path, "a file of the folder", '"gaps.csv"'
-            )
-            hide = partial(hide_same_gaps, uri=address(path), channels=channels)
-            return Hidden((("", {}, hide),), pattern=path)
-        case _:
-            advice = f"remove all but one, or write a task file for each; got {ways}"
-            key = f"hide.{ways[1]}"
-            raise document.error(key, f"one of {', '.join(_WAYS)}", f"{len(ways)}", advice)
+    readers = {
+        "frames": _read_frames,
+        "fraction": _read_fraction,
+        "runs": _read_runs,
+        "pattern-of": partial(_read_pattern, address=address),
+    }
+    ways = [way for way in readers if way in document.get("hide")]
+    if len(ways) > 1:
+        advice = f"remove all but one, or write a task file for each; got {ways}"
+        expected = f"one of {', '.join(readers)}"
+        raise document.error(f"hide.{ways[1]}", expected, f"{len(ways)}", advice)
+    return readers[ways[0]](document, channels) if ways else _hide_throughout(channels)
 
 
-def _fractions(document: Document, channels: tuple[str, ...]) -> tuple[Variant, ...]:
+def _hide_throughout(channels: tuple[str, ...]) -> Hidden:
+    hide = partial(hide_spans, spans=((0, None),), channels=channels)
+    return Hidden((("", {}, hide),), whole_channels=True, repeats=True)
+
+
+def _read_frames(document: Document, channels: tuple[str, ...]) -> Hidden:
+    spans = read_spans(document, "hide.frames", [])
+    hide = partial(hide_spans, spans=spans, channels=channels)
+    return Hidden((("", {}, hide),), whole_frames=not channels, repeats=True)
+
+
+def _read_pattern(
+    document: Document, channels: tuple[str, ...], address: Callable[[str], str]
+) -> Hidden:
+    path = document.read("hide.pattern-of", "", is_path, "a file of the folder", '"gaps.csv"')
+    hide = partial(hide_same_gaps, uri=address(path), channels=channels)
+    return Hidden((("", {}, hide),), pattern=path)
+
+
+def _read_fraction(document: Document, channels: tuple[str, ...]) -> Hidden:
     shares = _numbers(
         document, "hide.fraction", _is_share, "a share between 0 and 1, or a list", "0.2"
     )
     hidings = {share: partial(hide_entries, share=share, channels=channels) for share in shares}
-    return _variants(hidings, "hidden", "of entries")
+    return Hidden(_variants(hidings, "hidden", "of entries"), scattered=True)
 
 
-def _runs(document: Document, channels: tuple[str, ...]) -> Hidden:
+def _read_runs(document: Document, channels: tuple[str, ...]) -> Hidden:
     if not isinstance(document.get("hide.runs"), Mapping):
         advice = "write for example runs = { seconds = [0.1, 0.5], count = 3 }"
         got = repr(document.get("hide.runs"))
