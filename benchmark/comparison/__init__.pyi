@@ -1,4 +1,4 @@
-from .all_changes import run_changes
+from .changes import run_changes
 from .contrasts import compare
 from .printing import markdown, notes, outcome, terminal
 from .sides import between_models, between_runs, planned_side, side_names

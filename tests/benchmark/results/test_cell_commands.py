@@ -10,8 +10,7 @@ from typer.main import get_command
 
 from mocapbench.benchmark import TASKS, Request, archive_at, plan
 from mocapbench.benchmark.cli import run as run_module
-from mocapbench.benchmark.results.cell_commands import FLAGS, LEFT_OUT, cell_command
-from mocapbench.benchmark.results.origins import origins
+from mocapbench.benchmark.results.origins import FLAGS, LEFT_OUT, cell_command, origins
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address

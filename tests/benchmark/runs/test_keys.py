@@ -123,7 +123,6 @@ FIT_PATH = [
     ("benchmark.problems.impute", "toy-interpolation-1", "trivial"),
     ("benchmark.problems.masks", "toy-interpolation-1", "trivial"),
     ("benchmark.problems.internals", "toy-interpolation-1", "trivial"),
-    ("benchmark.problems.latent", "toy-interpolation-1", "trivial"),
     ("benchmark.problems.synthesise", "toy-synthesis", "control"),
     ("benchmark.problems.cluster", "style-clustering", "k-means"),
     ("benchmark.problems.recover", "covariance-recovery", "mohgp"),
