@@ -124,6 +124,26 @@ def test_whole_frames_at_an_end_have_whole_frames_at_an_end_as_copies(at_start):
         assert whole[0] == seen[0] or whole[-1] == seen[-1]
 
 
+def test_no_channel_shows_both_sides_of_a_copy_of_whole_frames_at_an_end():
+    """The last frame, which one channel hides and others show, is beyond the last free in all."""
+    hidden = np.zeros((95, 4), dtype=bool)
+    hidden[:6], hidden[94, 0] = True, True
+    for mask in hold_out_gaps(recording(hidden)):
+        for d in (1, 2, 3):
+            (copy,) = runs(mask[:, d])
+            visible = np.flatnonzero(~(hidden | mask)[:, d])
+            assert copy[-1] < visible[0] or visible[-1] < copy[0]
+
+
+@pytest.mark.parametrize("n_islands", [2, 3, 4, 5])
+@pytest.mark.parametrize("position", [0.0, 0.5, 0.99])
+def test_a_gap_at_an_end_is_made_longer_by_the_outermost_island(n_islands, position):
+    islands = 10 * np.arange(1, n_islands + 1)
+    blocked = ~np.isin(np.arange(10 * (n_islands + 2)), islands)
+    (held_out,) = copies_or_islands(blocked, np.arange(8), position)
+    assert held_out.tolist() == [islands[0] if position < 0.5 else islands[-1]]
+
+
 def test_a_copy_of_whole_frames_may_hide_half_of_those_that_all_channels_show():
     hidden = np.zeros((32, 4), dtype=bool)
     hidden[14:24], hidden[14:26, 0] = True, True
@@ -132,6 +152,16 @@ def test_a_copy_of_whole_frames_may_hide_half_of_those_that_all_channels_show():
     assert masks
     for mask in masks:
         assert mask.all(axis=1).sum() == 10
+
+
+def test_of_an_odd_number_of_frames_less_than_half_are_hidden_as_a_whole():
+    hidden = np.zeros((31, 4), dtype=bool)
+    hidden[14:24], hidden[14:26, 0] = True, True
+    assert (~hidden.any(axis=1)).sum() == 19
+    masks = hold_out_gaps(recording(hidden))
+    assert masks
+    for mask in masks:
+        assert mask.all(axis=1).sum() <= 9
 
 
 def test_what_a_gap_is_shortened_to_is_half_as_long_each_time():

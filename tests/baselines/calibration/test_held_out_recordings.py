@@ -167,6 +167,33 @@ def test_calm_training_does_not_make_doubt_explode():
     assert factor(KeepsRecordings(), resting, given) < 3.0
 
 
+def test_training_at_rest_beside_the_gap_is_the_limit_of_training_nearly_at_rest():
+    """Without any error in copies, errors grow from them to gaps as steeply as they may."""
+    given = with_gap(noise("new", 1.0), slice(40, 160))
+    factors = []
+    for rest in (0.0, 1e-9):
+        still = np.full((200, 1), rest)
+        still[40:160] = 1.0
+        training = [r.with_values(r.values * still) for r in (noise(n, 1.0) for n in "abcdef")]
+        factors.append(factor(KeepsRecordings(), training, given))
+    np.testing.assert_allclose(*factors)
+    check = VarianceCheck(given)
+    own = check.copy_factors(FixedVariance().impute(check.recordings()))
+    assert (factors[0] > (check.steepest * own + 0.8) / 2.0).all()
+
+
+def test_variances_do_not_depend_on_how_large_the_model_says_they_are():
+    """Here copies are shorter than gaps, and training varies more in the gaps."""
+    wilder = np.ones((200, 1))
+    wilder[40:160] = 1.1
+    training = [r.with_values(r.values * wilder) for r in (noise(n, 1.0) for n in "abcdef")]
+    given = with_gap(noise("new", 1.0), slice(40, 160))
+    assert (VarianceCheck(given).steepest > 1.5).all()
+    one, *others = (n * factor(KeepsRecordings(n), training, given) for n in (1.0, 0.1, 10.0))
+    for other in others:
+        np.testing.assert_allclose(other, one)
+
+
 def test_those_held_out_are_not_learnt_from_and_held_out_at_once_where_many_are_left():
     new, some, many = noise("new", 1.0), "abcd", "abcdefghijklmnop"
     for names, at_once in ((some, False), (many, True)):

@@ -50,6 +50,13 @@ def test_different_channels_are_held_out():
     assert len({mask.tobytes() for mask in masks}) == 3
 
 
+@pytest.mark.parametrize("lost", range(8))
+def test_as_many_channels_of_the_unit_are_held_out_in_turn_as_there_are_sets(lost):
+    n_visible = UNITS.count(UNITS[lost]) - 1
+    masks = hold_out_channels(without(noise("new"), [lost]))
+    assert np.any(masks, axis=0).all(axis=0).sum() == min(n_visible, 3)
+
+
 def factors(given, training):
     (before,), (after,) = (
         FixedVariance().impute([given]),

@@ -72,11 +72,13 @@ def test_variances_are_as_small_as_held_out_gaps_show_and_the_model_knows(scales
     np.testing.assert_allclose(prediction.variance[90], np.minimum(without.variance[90], both))
 
 
-def test_where_copies_are_shorter_what_a_model_knows_makes_no_variance_smaller():
+@pytest.mark.parametrize("nominal", [10.0, 1e5])
+def test_where_copies_are_shorter_what_a_model_knows_makes_no_variance_smaller(nominal):
     recording = walk(80)
     assert (VarianceCheck(recording).steepest > 1.0).all()
     (without,), (prediction,) = (
-        calibrate(model, (), [recording]) for model in (FixedVariance(10.0), Knowing(10.0, 1e-6))
+        calibrate(model, (), [recording])
+        for model in (FixedVariance(nominal), Knowing(nominal, 1e-6))
     )
     hidden = ~recording.visible
     np.testing.assert_array_equal(prediction.variance[hidden], without.variance[hidden])
@@ -159,6 +161,14 @@ def test_a_variance_that_is_too_small_becomes_what_held_out_gaps_show(scale):
 def test_doubt_does_not_vanish_where_a_model_errs_nowhere():
     (prediction,) = calibrate(FixedVariance(1.0), (), [noise("r", np.zeros(2))])
     np.testing.assert_array_equal(prediction.variance[80:110], 1e-4)
+
+
+def test_nor_does_it_where_copies_are_shorter():
+    still = walk(120)
+    still = still.with_values(np.where(still.visible, 0.0, np.nan))
+    assert VarianceCheck(still).halves
+    (prediction,) = calibrate(FixedVariance(1.0), (), [still])
+    np.testing.assert_array_equal(prediction.variance[~still.visible], 1e-4)
 
 
 @settings(max_examples=100, deadline=None)
