@@ -11,12 +11,12 @@ import pandas as pd
 from mocapbench.baselines.common.markers import marker_places, markers_of
 from mocapbench.basics.arrays import Array, Mask
 from mocapbench.datasets import Recording, frame_rate
+from mocapbench.datasets.formats.missing_rows import count_missing_rows
 
 __all__ = [
     "MotionPaths",
     "find_channel_paths",
     "find_marker_paths",
-    "mask_missing_rows",
     "measure_extent",
 ]
 
@@ -25,8 +25,6 @@ _STEPS = 9
 _SECONDS, _FRAMES, _QUANTILE = 0.5, 15, 0.9
 """On either side of a step, what its excess is compared with: that quantile, over these seconds or
 frames, whichever is longer."""
-_JUMP = 1.5
-"""Of the usual step of time: from which on rows are missing."""
 _SHARE, _SHARE_OF_CHANNEL = 0.006, 0.1
 """The least leap of a marker, as a share of how far apart all are, and of a channel, as a share of
 how far it moves."""
@@ -92,7 +90,7 @@ def find_marker_paths(recording: Recording) -> MotionPaths:
     hidden = np.isnan(positions).any(axis=2, keepdims=True)
     positions = np.where(hidden, np.nan, positions)
     least_leaps = np.full(len(names), _SHARE * measure_extent(positions))
-    missing = mask_missing_rows(recording.times)
+    missing = count_missing_rows(len(positions), None, recording.times) > 0
     return MotionPaths(names, positions, least_leaps, frame_rate(recording), missing)
 
 
@@ -111,14 +109,8 @@ def find_channel_paths(recording: Recording) -> MotionPaths:
         values[:, :, np.newaxis],
         np.array(least_leaps, dtype=np.float64),
         frame_rate(recording),
-        mask_missing_rows(recording.times),
+        count_missing_rows(len(values), None, recording.times) > 0,
     )
-
-
-def mask_missing_rows(times: Array) -> Mask:
-    """Return behind which of N frames rows are missing (N - 1,)."""
-    steps = np.diff(times)
-    return np.asarray(steps > _JUMP * np.median(steps) if len(steps) else np.zeros(0, dtype=bool))
 
 
 def measure_extent(positions: Array) -> float:

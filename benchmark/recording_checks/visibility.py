@@ -10,8 +10,8 @@ import pandas as pd
 from mocapbench.baselines.common.markers import markers_of
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
-from mocapbench.benchmark.recording_checks.paths import mask_missing_rows
 from mocapbench.datasets import Recording
+from mocapbench.datasets.formats.missing_rows import count_missing_rows
 
 __all__ = ["find_hidden", "find_missing_rows", "place_markers"]
 
@@ -50,12 +50,9 @@ def find_missing_rows(recording: Recording) -> pd.DataFrame:
     DataFrame
         A row each with the kind ``rows``, the two frames, and how many rows are missing.
     """
-    steps = np.diff(recording.times)
-    (behind,) = np.nonzero(mask_missing_rows(recording.times))
-    counts = np.round(steps[behind] / np.median(steps) - 1) if len(behind) else steps[:0]
-    return tabulate_findings(
-        [("rows", (), k, k + 2, n) for k, n in zip(behind.tolist(), counts.tolist(), strict=True)]
-    )
+    counts = count_missing_rows(len(recording.times), None, recording.times)
+    rows = [("rows", (), k, k + 2, float(counts[k])) for k in np.flatnonzero(counts).tolist()]
+    return tabulate_findings(rows)
 
 
 def place_markers(recording: Recording) -> Iterator[tuple[str, list[int]]]:

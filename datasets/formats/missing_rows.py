@@ -13,10 +13,10 @@ from mocapbench.datasets.recording import Frames
 
 __all__ = ["count_missing_rows", "counts_frames", "most_common_step", "warn_of_missing_rows"]
 
-_REGULAR, _JUMP = 0.3, 1.7
-"""Of the usual step: how far others are from multiples, and from which on a row is missing."""
-_MOSTLY = 0.9
-"""Of steps that are near a multiple: below, times are uneven, and tell of no missing row."""
+_JUMP, _SPREADS = 1.7, 3.0
+"""From how many usual steps on a row is missing, and from how many spreads above one."""
+_SHORT, _SHORTEST = 0.1, 0.5
+"""The share of steps by which times spread below the usual one, and where these tell nothing."""
 _HUGE = 1e15  # counts beyond are no whole numbers of a double
 
 
@@ -25,8 +25,8 @@ def count_missing_rows(
 ) -> NDArray[np.intp]:
     """Return how many rows are missing behind each of N rows but the last, (N − 1,).
 
-    A count of frames says it, or else times that rise, if their steps are about multiples of the
-    usual one.
+    A count of frames says it, or else times that rise, by steps that are far longer than the usual
+    one. How far is told by the shortest steps, as no missing row makes a step short.
     """
     none = np.zeros(max(n_rows - 1, 0), dtype=np.intp)
     if frames is not None and counts_frames(frames):
@@ -35,10 +35,11 @@ def count_missing_rows(
     if not len(steps) or not (np.isfinite(steps) & (steps > 0)).all():
         return none
     in_usual = steps / np.median(steps)
-    regular = np.abs(in_usual - np.maximum(np.round(in_usual), 1.0)) <= _REGULAR
-    if regular.mean() < _MOSTLY:
+    short = float(np.quantile(in_usual, _SHORT))
+    if short < _SHORTEST:
         return none
-    return _count_within(np.where(in_usual >= _JUMP, in_usual, 1.0))
+    jump = max(_JUMP, 1.0 + _SPREADS * (1.0 - short))
+    return _count_within(np.where(in_usual >= jump, in_usual, 1.0))
 
 
 def warn_of_missing_rows(
