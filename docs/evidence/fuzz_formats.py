@@ -2,9 +2,9 @@
 
     python docs/evidence/fuzz_formats.py 10000 walk.c3d walk.bvh
 
-Reading may give a recording or a `FormatError`, also without a rate and with rows added that are
-missing; a recording is written with its gaps filled. Anything else is printed and ends with exit
-code 1.
+A skeleton (.asf) is damaged beside a motion of the same name. Reading may give a recording or a
+`FormatError`, also without a rate and with rows added that are missing; a recording is written with
+its gaps filled. Anything else is printed and ends with exit code 1.
 """
 
 import random
@@ -54,15 +54,16 @@ def write_filled(kind: Format, path: Path) -> None:
 
 def fuzz(path: Path, n_times: int) -> Counter[str]:
     """Return how often each outcome came of reading damaged copies of a file."""
-    kind, rng = format_for(path), random.Random(0)
+    motion = path.with_suffix(".amc") if path.suffix == ".asf" else path
+    kind, rng = format_for(motion), random.Random(0)
     counts: Counter[str] = Counter()
     with TemporaryDirectory() as folder:
         copy = Path(folder, path.name)
-        for beside in path.parent.glob("*.asf"):
+        for beside in {*path.parent.glob("*.asf"), motion}:
             shutil.copy(beside, folder)
         for _ in range(n_times):
             copy.write_bytes(damage_bytes(path.read_bytes(), rng))
-            counts[outcome(kind, copy)] += 1
+            counts[outcome(kind, copy.with_name(motion.name))] += 1
     return counts
 
 
