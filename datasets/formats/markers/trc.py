@@ -21,7 +21,7 @@ from mocapbench.datasets.formats.tables.heads import Head
 from mocapbench.datasets.formats.tables.labels import Label
 from mocapbench.datasets.formats.tables.plan import plan_wide
 from mocapbench.datasets.formats.tables.sheet import Sheet
-from mocapbench.datasets.formats.tables.table_format import TableFormat
+from mocapbench.datasets.formats.tables.table_format import TextTableFormat
 from mocapbench.datasets.formats.text.cells import CellSplitter, Separated
 from mocapbench.datasets.formats.text.lines import read_lines
 from mocapbench.datasets.formats.text.rows import SpacedTable, TextTable
@@ -33,7 +33,7 @@ _DIALECT = Dialect(program="TRC", sign="")
 _FRAME, _TIME = range(LEADING)
 
 
-class TRCFormat(TableFormat):
+class TRCFormat(TextTableFormat):
     """Positions of markers (.trc), as OpenSim, Cortex, Mokka and people write them.
 
     The channels are ``LKNE.x``, ``LKNE.y``, ``LKNE.z`` and so on, in the unit that the file states;
@@ -51,7 +51,7 @@ class TRCFormat(TableFormat):
 
     suffixes = (".trc",)
 
-    def sheet(self, path: Path) -> Sheet:
+    def sheet(self, path: Path) -> Sheet[TextTable]:
         """Return the table of a file, without rows that are missing."""
         head, markers, table = _parse(path)
         labels = _label_columns(markers, head.facts.get("Units", ""))

@@ -12,7 +12,7 @@ import numpy as np
 
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.tables.columns import is_time
-from mocapbench.datasets.formats.text.rows import TextTable
+from mocapbench.datasets.formats.tables.plan import RowTable
 from mocapbench.datasets.recording import Frames
 
 __all__ = ["is_clock", "read_clocks", "set_clock"]
@@ -26,7 +26,7 @@ _CLOCK = re.compile(
 _MINUTE, _HOUR, _DAY = 60.0, 3600.0, 86400.0
 
 
-def read_clocks(table: TextTable, is_number: Sequence[bool]) -> dict[int, Frames]:
+def read_clocks(table: RowTable, is_number: Sequence[bool]) -> dict[int, Frames]:
     """Return the column of times as a clock shows them, in seconds, if no other column has times.
 
     Raises
@@ -43,8 +43,8 @@ def read_clocks(table: TextTable, is_number: Sequence[bool]) -> dict[int, Frames
     seconds = _clock_seconds(cells)
     for row in np.flatnonzero(np.isnan(seconds))[:1]:
         expected, advice = f"a time such as {cells[0]!r}", "correct the time"
-        line = table.rows[int(row)] + 1
-        raise FormatError(table.file, expected, repr(cells[row][:60]), advice, line)
+        got, line = repr(cells[row][:60]), table.line_of(int(row))
+        raise FormatError(table.file, expected, got, advice, line)
     return {named[0]: seconds}
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from mocapbench.datasets.formats.tables.sheet import Sheet, read_sheet
-from mocapbench.datasets.formats.tables.table_format import TableFormat
+from mocapbench.datasets.formats.tables.table_format import TextTableFormat
+from mocapbench.datasets.formats.text.rows import TextTable
 
 __all__ = ["CSVFormat"]
 
 
-class CSVFormat(TableFormat):
+class CSVFormat(TextTableFormat):
     r"""Tables of text (.csv, .tsv, .mot, .sto): a row a frame, a column for each channel.
 
     Tables of OptiTrack Motive, Vicon Nexus, Qualisys, DeepLabCut, OpenSim and iSen are known by
@@ -47,6 +48,6 @@ class CSVFormat(TableFormat):
 
     suffixes = (".csv", ".tsv", ".mot", ".sto")
 
-    def sheet(self, path: Path) -> Sheet:
+    def sheet(self, path: Path) -> Sheet[TextTable]:
         """Return the table of a file, without rows that are missing."""
         return read_sheet(path)

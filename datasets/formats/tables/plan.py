@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +13,9 @@ from numpy.typing import NDArray
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.tables.columns import TableColumns
 from mocapbench.datasets.formats.text.numbers import looks_numeric
-from mocapbench.datasets.formats.text.rows import TextTable
 from mocapbench.datasets.recording import Frames
 
-__all__ = ["RowPlan", "is_key", "plan_long", "plan_rows", "plan_wide"]
+__all__ = ["RowPlan", "RowTable", "is_key", "plan_long", "plan_rows", "plan_wide"]
 
 _KEY = re.compile(
     r"""(?:(?:marker|keypoint|key[ _]point|landmark|joint|node|point|body[ _]?part|part|segment|
@@ -34,13 +34,38 @@ RowPlan = tuple[NDArray[np.intp], tuple[Mapping[int, str], ...], tuple[int, ...]
 cells that all its rows share, by their columns; and the columns of them that tell groups apart."""
 
 
+class RowTable(Protocol):
+    """A table with a row for each frame, or for each marker of each frame."""
+
+    @property
+    def file(self) -> str:
+        """Name of the file in errors."""
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Of the columns."""
+
+    @property
+    def rows(self) -> Sequence[int]:
+        """As many as there are rows."""
+
+    def texts(self, columns: Sequence[int]) -> dict[int, list[str]]:
+        """Return the cells of some columns."""
+
+    def name_row(self, row: int) -> str:
+        """Return what messages call a row."""
+
+    def line_of(self, row: int) -> int | None:
+        """Return the line of a row in a text, counted from 1."""
+
+
 def is_key(name: str) -> bool:
     """Return whether a column of this name says of which marker, or whom, a row is."""
     return _KEY.fullmatch(name.strip()) is not None
 
 
 def plan_rows(
-    table: TextTable, columns: TableColumns, numbers: Mapping[int, Frames]
+    table: RowTable, columns: TableColumns, numbers: Mapping[int, Frames]
 ) -> tuple[RowPlan, TableColumns]:
     """Return where the frames are, and the columns but those that tell rows of a frame apart."""
     keys = [k for k in columns.channels if is_key(table.names[k])] + list(columns.left_out)
@@ -54,7 +79,7 @@ def plan_rows(
         apart = {k for k in keys if k in numbers and _is_constant(numbers[k])}
         channels = tuple(column for column in columns.channels if column not in apart)
         return plan_wide(len(table.rows)), columns._replace(channels=channels)
-    plan = plan_long(table.file, index[-1], table.texts(keys), table.rows)
+    plan = plan_long(table, index[-1], table.texts(keys))
     shared = {column for group in plan[1] for column in group}
     channels = tuple(column for column in columns.channels if column not in shared)
     return plan, columns._replace(channels=channels)
@@ -65,20 +90,16 @@ def plan_wide(n_rows: int) -> RowPlan:
     return np.arange(n_rows)[:, np.newaxis], ({},), ()
 
 
-def plan_long(
-    file: str, index: Frames, keys: Mapping[int, Sequence[str]], lines: Sequence[int]
-) -> RowPlan:
+def plan_long(table: RowTable, index: Frames, keys: Mapping[int, Sequence[str]]) -> RowPlan:
     """Return the plan of a table with several rows a frame, by the columns that tell them apart.
 
     Parameters
     ----------
-    file : str
+    table : RowTable
     index : ndarray of shape (R,)
         The frame or time of each row.
     keys : mapping of int to sequence of R str
         Cells of the columns that may tell the rows of a frame apart.
-    lines : sequence of R int
-        Indices of their lines.
 
     Raises
     ------
@@ -87,7 +108,8 @@ def plan_long(
     """
     if not np.isfinite(index).all():
         row = int(np.flatnonzero(~np.isfinite(index))[0])
-        raise FormatError(file, "a frame or time in every row", "none", "add it", lines[row] + 1)
+        expected, got = "a frame or time in every row", f"none in {table.name_row(row)}"
+        raise FormatError(table.file, expected, got, "add it", table.line_of(row))
     frames, frame_of = np.unique(index, return_inverse=True)
     for columns in _candidates(keys):
         cells = list(zip(*(keys[column] for column in columns), strict=True))
@@ -99,7 +121,7 @@ def plan_long(
         rows[frame_of, group_of] = np.arange(len(index))
         if (rows >= 0).sum() == len(index):
             return rows, _shared_cells(keys, group_of), columns
-    raise _ambiguous(file, index, frame_of, keys, lines)
+    raise _ambiguous(table, index, frame_of, keys)
 
 
 def _shared_cells(
@@ -126,30 +148,29 @@ def _candidates(keys: Mapping[int, Sequence[str]]) -> Iterable[tuple[int, ...]]:
 
 
 def _ambiguous(
-    file: str,
+    table: RowTable,
     index: Frames,
     frame_of: NDArray[np.intp],
     keys: Mapping[int, Sequence[str]],
-    lines: Sequence[int],
 ) -> FormatError:
     repeated = np.bincount(frame_of)[frame_of] > 1
     first = int(np.flatnonzero(repeated)[0])
     again = int(np.flatnonzero(frame_of == frame_of[first])[1])
     told = "that columns of text tell apart" if keys else "or a column that tells rows apart"
     return FormatError(
-        file,
+        table.file,
         f"one row for each frame, {told}",
-        f"{index[first]:g} again, after line {lines[first] + 1}",
+        f"{index[first]:g} again, after {table.name_row(first)}",
         "split a table of several recordings or people, or name the marker of each row in a column "
         "'keypoint'",
-        lines[again] + 1,
+        table.line_of(again),
     )
 
 
-def _check_keys(table: TextTable, keys: Iterable[int]) -> None:
+def _check_keys(table: RowTable, keys: Iterable[int]) -> None:
     """Refuse rows of several markers where nothing says of which frames they are."""
     for column in (key for key in keys if is_key(table.names[key])):
-        cells = [table.row(line)[column] for line in table.rows]
+        cells = table.texts([column])[column]
         if 1 < len({*cells}) < len(cells):
             raise FormatError(
                 table.file,

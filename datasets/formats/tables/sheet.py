@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from mocapbench.datasets.formats.building import recording_of
 from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.missing_rows import count_missing_rows, warn_of_missing_rows
-from mocapbench.datasets.formats.tables.clock_times import is_clock, read_clocks
+from mocapbench.datasets.formats.tables.clock_times import read_clocks
 from mocapbench.datasets.formats.tables.columns import (
     TableColumns,
     sort_columns,
@@ -26,7 +27,7 @@ from mocapbench.datasets.formats.tables.frame_times import FrameTimes
 from mocapbench.datasets.formats.tables.heads import Head, read_head
 from mocapbench.datasets.formats.tables.kinds import are_labelled, are_numbers, leave_other_times
 from mocapbench.datasets.formats.tables.labels import LENGTHS
-from mocapbench.datasets.formats.tables.plan import plan_rows
+from mocapbench.datasets.formats.tables.plan import RowTable, plan_rows
 from mocapbench.datasets.formats.text.lines import read_lines
 from mocapbench.datasets.formats.text.numbers import looks_numeric
 from mocapbench.datasets.formats.text.rows import TextTable
@@ -38,14 +39,17 @@ _MOST_INSERTED = 10
 """Rows that are inserted at most, for each that there is."""
 
 
+Table_co = TypeVar("Table_co", bound=RowTable, covariant=True)
+
+
 @dataclass(frozen=True)
-class Sheet:
+class Sheet(Generic[Table_co]):
     """A table of R rows that holds N frames of D channels.
 
     Parameters
     ----------
-    table : TextTable
-        The rows, and the lines of the file down to the last one.
+    table : RowTable
+        The rows; of a text, with the lines of the file down to the last one.
     below : sequence of str
         The lines below.
     head : Head
@@ -59,9 +63,11 @@ class Sheet:
         The cells that all rows of a group share, by their columns.
     named_by : tuple of int
         The columns of them that tell groups apart.
+    clocks : frozenset of int
+        Columns of times as a clock shows them, whose numbers are seconds.
     """
 
-    table: TextTable
+    table: Table_co
     below: Sequence[str]
     head: Head
     columns: TableColumns
@@ -69,6 +75,7 @@ class Sheet:
     rows: NDArray[np.intp]
     groups: tuple[Mapping[int, str], ...]
     named_by: tuple[int, ...]
+    clocks: frozenset[int] = frozenset()
 
     def recording(self, rate: float | None) -> Recording:
         """Return the recording, at a rate in place of the times of the table if one is given."""
@@ -92,8 +99,7 @@ class Sheet:
         column = self.columns.time
         if column is None:
             return ""
-        clock = self.table.rows and is_clock(self.table.row(self.table.rows[0])[column])
-        return "s" if clock else time_unit(self.table.names[column])
+        return "s" if column in self.clocks else time_unit(self.table.names[column])
 
     def lost_bodies(self) -> Iterator[tuple[NDArray[np.intp], ...]]:
         """Yield where a marker or body is at 0, 0, 0, if that means that it is missing.
@@ -129,11 +135,11 @@ class Sheet:
 
     def warn_of_lacking(self, advice: str) -> None:
         """Say which rows are missing."""
-        where = self._name_line
+        where = self._name_row
         warn_of_missing_rows(self.table.file, self.lacking(), where, self._named_index(), advice)
 
-    def _name_line(self, frame: int) -> str:
-        return f"line {self.table.rows[int(self.rows[frame].max())] + 1}"
+    def _name_row(self, frame: int) -> str:
+        return self.table.name_row(int(self.rows[frame].max()))
 
     def lacking(self) -> NDArray[np.intp]:
         """Return how many frames are missing behind each but the last (N − 1,)."""
@@ -141,7 +147,7 @@ class Sheet:
             len(self.rows), self.index(self.columns.frame), self.index(self.columns.time)
         )
 
-    def with_lacking(self) -> Sheet:
+    def with_lacking(self) -> Sheet[Table_co]:
         """Return the sheet with the frames of which there is no row.
 
         Raises
@@ -152,13 +158,13 @@ class Sheet:
         lacking = self.lacking()
         most = _MOST_INSERTED * len(self.rows)
         if lacking.sum() > most:
-            row = int(self.rows[lacking.argmax()].max())
+            row = int(self.rows[lacking.argmax() + 1].max())
             raise FormatError(
                 self.table.file,
                 f"{most} rows or fewer to insert",
                 f"{lacking.sum()} by the steps of {self._named_index()}",
                 "correct the frame or time",
-                self.table.rows[row] + 2,
+                self.table.line_of(row),
             )
         behind = np.repeat(np.arange(1, len(self.rows)), lacking)
         return replace(self, rows=np.insert(self.rows, behind, -1, axis=0))
@@ -196,7 +202,7 @@ class Sheet:
         return spread.reshape(len(rows), rows.shape[1] * len(columns))
 
 
-def read_sheet(path: Path) -> Sheet:
+def read_sheet(path: Path) -> Sheet[TextTable]:
     """Return the table of a file.
 
     Raises
@@ -214,7 +220,7 @@ def read_sheet(path: Path) -> Sheet:
         raise
 
 
-def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
+def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet[TextTable]:
     table = _table_below(file, lines, head)
     columns, clocks = _tell_columns(table, head)
     read = sorted(
@@ -228,7 +234,7 @@ def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
         warn_of_text(file, [table.names[k] for k in columns.left_out if k not in keys])
     _compare_counts(file, head, len(values))
     below = lines[head.stop :]
-    return Sheet(table, below, head, columns, numbers, rows, groups, named_by)
+    return Sheet(table, below, head, columns, numbers, rows, groups, named_by, frozenset(clocks))
 
 
 def _table_below(file: str, lines: Sequence[str], head: Head) -> TextTable:

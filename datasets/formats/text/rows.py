@@ -64,6 +64,14 @@ class TextTable:
             stop -= 1
         return range(self.start, stop)
 
+    def name_row(self, row: int) -> str:
+        """Return what messages call a row."""
+        return f"line {self.line_of(row)}"
+
+    def line_of(self, row: int) -> int:
+        """Return the line of a row, counted from 1."""
+        return self.rows[row] + 1
+
     def row(self, index: int) -> list[str]:
         """Return the cells of the line at ``index``.
 
