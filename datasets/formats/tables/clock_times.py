@@ -1,6 +1,6 @@
 """Times that are those of a clock, perhaps with a date: ``2026-01-31T10:00:00.010Z``, ``00:01.25``.
 
-Of dates only the order matters: a clock that goes back has passed midnight.
+Of dates and zones only the order matters: a clock that goes back has passed midnight.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from mocapbench.datasets.recording import Frames
 __all__ = ["is_clock", "read_clocks", "set_clock"]
 
 _CLOCK = re.compile(
-    r"""(?P<before>\s*(?:\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}[T\s]+)?)
-    (?:(?P<hours>\d{1,2}):)?(?P<minutes>\d{1,2}):(?P<seconds>\d{1,2}(?:[.,]\d+)?)
-    (?P<behind>\s*(?P<half>[AP]M)?\s*(?:Z|UTC|[+\-]\d{2}:?(?:\d{2})?)?\s*)""",
+    r"""(?P<before>\s*(?:\d{1,4}[-/.](?:\d{1,2}|[a-zäéû]{3,9}\.?)[-/.]\d{1,4}[T\s]+)?)
+    (?:(?P<hours>\d{1,2}):)?(?P<minutes>\d{1,2}):(?P<seconds>\d{1,2}(?:[.,]\d+|:\d{3})?)
+    (?P<behind>\s*(?P<half>[AP]M)?\s*(?:[A-Z]{1,5}|[+\-]\d{2}:?(?:\d{2})?)?(?:\[[^\]]*\])?\s*)""",
     re.VERBOSE | re.IGNORECASE,
 )
 _MINUTE, _HOUR, _DAY = 60.0, 3600.0, 86400.0
@@ -56,6 +56,8 @@ def is_clock(cell: str) -> bool:
     >>> from mocapbench.datasets.formats.tables.clock_times import is_clock
     >>> list(map(is_clock, ["2026-01-31T10:00:00.5Z", "31.01.2026 10:00:00,5", "00:01.25"]))
     [True, True, True]
+    >>> list(map(is_clock, ["31-Jan-2026 10:00:00", "10:00:00:005", "10:00:00+01:00[CET]"]))
+    [True, True, True]
     >>> list(map(is_clock, ["10", "2026-01-31", "15:26:46:12.02", "soon"]))
     [False, False, False, False]
     """
@@ -83,7 +85,7 @@ def set_clock(like: str, seconds: float) -> str:
     found = _CLOCK.fullmatch(like)
     if found is None or seconds // _DAY != 0:
         return ""
-    digits = len(re.split("[.,]", f"{found['seconds']}.")[1])
+    digits = len(re.split("[.,:]", f"{found['seconds']}.")[1])
     minutes, rest = divmod(round(seconds, digits), _MINUTE)
     hours, minutes = divmod(int(minutes), 60)
     before, behind = found["before"], found["behind"]
@@ -91,7 +93,8 @@ def set_clock(like: str, seconds: float) -> str:
         half = "PM" if hours >= 12 else "AM"
         behind, hours = behind.replace(found["half"], half), (hours - 1) % 12 + 1
     written = f"{rest:0{digits + 3 if digits else 2}.{digits}f}"
-    written = written.replace(".", ",") if "," in found["seconds"] else written
+    mark = next((mark for mark in ",:" if mark in found["seconds"]), ".")
+    written = written.replace(".", mark)
     hour = f"{hours:0{len(found['hours'])}}:" if found["hours"] else ""
     return f"{before}{hour}{minutes:02}:{written}{behind}"
 
@@ -103,5 +106,5 @@ def _seconds_of_day(cell: str) -> float:
     hours = float(found["hours"] or 0)
     if found["half"]:
         hours = hours % 12 + 12 * (found["half"].upper() == "PM")
-    seconds = float(found["seconds"].replace(",", "."))
+    seconds = float(re.sub("[,:]", ".", found["seconds"]))
     return hours * _HOUR + float(found["minutes"]) * _MINUTE + seconds

@@ -21,8 +21,10 @@ __all__ = [
 ]
 
 _TIME = re.compile(
-    r"""(?:(?:elapsed|relative|capture|recording|video|unix|epoch|system|camera|frame)[ _]?)?
+    r"""(?:(?:elapsed|relative|capture|recording|video|unix|epoch|system|camera|frame|date|utc|
+    local)[ _]?)?
     (?:time(?:[ _]?stamp)?s?|t|sec(?:ond)?s?|tiempo|temps|zeit)
+    (?:[ _]*[\[(]?(?:utc|gmt|local)[\])]?)?
     (?:[ _]*[\[(]?\s*(s|sec|secs|seconds?|ms|msec|milliseconds?|[uµμ]s|microseconds?|ns|
     nanoseconds?)\s*[\])]?)?""",
     re.VERBOSE,

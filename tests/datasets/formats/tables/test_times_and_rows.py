@@ -98,6 +98,9 @@ CLOCKS = {
     "ISO": "2026-01-31T{h:02}:{m:02}:{s:06.3f}",
     "ISO, of a zone": "2026-01-31 {h:02}:{m:02}:{s:09.6f}+01:00",
     "ISO, UTC": "2026-01-31T{h:02}:{m:02}:{s:06.3f}Z",
+    "ISO, of a named zone": "2026-01-31T{h:02}:{m:02}:{s:06.3f}+01:00[Europe/Vienna]",
+    "MATLAB": "31-Jan-2026 {h:02}:{m:02}:{s:06.3f}",
+    "a zone": "31/01/2026 {h:02}:{m:02}:{s:06.3f} CET",
     "German": "31.01.2026 {h:02}:{m:02}:{s:06.3f}",
     "a clock": "{h}:{m:02}:{s:06.3f}",
     "minutes": "{m:02}:{s:06.3f}",
@@ -128,6 +131,24 @@ def test_a_clock_tells_times_also_past_midnight(read, form, start):
 def test_rows_that_are_added_have_the_time_of_a_clock(read, tmp_path, form):
     rows = clock(CLOCKS[form], 59.95)
     walk = read("\n".join(["time,hip", *rows[:4], *rows[6:], ""]), kind=INSERTING)
+    INSERTING.write(tmp_path / "out.csv", walk, tmp_path / "walk.csv")
+    written = (tmp_path / "out.csv").read_text().splitlines()[1:]
+    assert [row.split(",")[0] for row in written] == [row.split(",")[0] for row in rows]
+
+
+@pytest.mark.parametrize(
+    "name", ["datetime", "Date_Time", "date time", "timestamp_utc", "UTC time", "DateTime (UTC)"]
+)
+def test_a_column_of_dates_and_times_is_known_by_its_name(read, name):
+    walk = read("\n".join([f"{name},hip", *clock(CLOCKS["ISO"], 59.95), ""]))
+    assert walk.channels == ("hip",)
+    np.testing.assert_allclose(np.diff(walk.times), 0.01, atol=1e-6)
+
+
+def test_milliseconds_may_stand_behind_a_colon(read, tmp_path):
+    rows = [row.replace(".", ":", 1) for row in clock(CLOCKS["a clock"], 59.95)]
+    walk = read("\n".join(["time,hip", *rows[:4], *rows[6:], ""]), kind=INSERTING)
+    np.testing.assert_allclose(np.diff(walk.times), 0.01, atol=1e-6)
     INSERTING.write(tmp_path / "out.csv", walk, tmp_path / "walk.csv")
     written = (tmp_path / "out.csv").read_text().splitlines()[1:]
     assert [row.split(",")[0] for row in written] == [row.split(",")[0] for row in rows]
