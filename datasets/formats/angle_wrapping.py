@@ -16,6 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mocapbench.basics.arrays import Array
+from mocapbench.datasets.formats.quaternions import align_quaternions, finish_quaternions
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recording
 
 __all__ = ["mean_directions", "unwrap_angles", "wrap_angles", "wrapping_offsets"]
@@ -27,8 +28,8 @@ _PERIODS = {"deg": 360.0, "rad": 2.0 * np.pi}
 def unwrap_angles(recording: Recording) -> Recording:
     """Return the recording with no jump of more than 180° between visible angles.
 
-    Channels whose unit is ``"deg"`` or ``"rad"`` are changed by multiples of 360°, the others not
-    at all.
+    Channels whose unit is ``"deg"`` or ``"rad"`` are changed by multiples of 360°, quaternions by
+    their sign (`align_quaternions`), the others not at all.
     Across a gap, the visible entries on its two sides are neighbours. Hiding entries can leave such
     a jump, so unwrap again after `Recording.hide`.
 
@@ -45,7 +46,7 @@ def unwrap_angles(recording: Recording) -> Recording:
     >>> unwrap_angles(turning).values.ravel()
     array([170.,  nan, 185.])
     """
-    values = recording.values.copy()
+    values = align_quaternions(recording.values, recording.channels)
     for channel, unit in enumerate(recording.units):
         if unit in _PERIODS:
             values[:, channel] = _unwrap(values[:, channel], _PERIODS[unit])
@@ -57,7 +58,7 @@ def wrap_angles(values: FrameByChannel, original: Recording, new: Mask) -> Frame
 
     That is [−180°, 180°) if all its visible angles of the channel lie there, else [0°, 360°] if
     they lie there. A channel that keeps neither is unwrapped in the file, and the new values
-    continue from the visible entry before.
+    continue from the visible entry before. Quaternions have the length 1 (`finish_quaternions`).
 
     Parameters
     ----------
@@ -68,7 +69,7 @@ def wrap_angles(values: FrameByChannel, original: Recording, new: Mask) -> Frame
     new : ndarray of bool of shape (N, D)
         The entries that are to be written; others are returned as they are.
     """
-    result = values.copy()
+    result = finish_quaternions(values, original.channels, original.values, new)
     for channel, unit in enumerate(original.units):
         rows = new[:, channel]
         if unit in _PERIODS and rows.any():
