@@ -82,7 +82,8 @@ def _choose_signs(quaternions: NDArray[np.float64]) -> Frames:
 
     One of which a number is missing has the sign of the one before.
     """
-    signs, seen = np.ones(len(quaternions)), ~np.isnan(quaternions).any(axis=1)
+    signs = np.ones(len(quaternions))
+    seen = np.asarray(~np.isnan(quaternions).any(axis=1))
     visible = quaternions[seen]
     turned = (visible[1:] * visible[:-1]).sum(axis=1) < 0
     signs[seen] = np.cumprod(np.concatenate([[1.0], np.where(turned, -1.0, 1.0)]))[: seen.sum()]
