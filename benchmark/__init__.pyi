@@ -67,6 +67,7 @@ from .task_files.task_file import TaskFile, with_folders
 from .task_files.template import draft
 from .tasks.address import Address
 from .tasks.base import Case, Entrant, Profile, Task
+from .tasks.people import people_tasks
 from .tasks.seeds import Seeds
 
 __all__ = [
@@ -157,6 +158,7 @@ __all__ = [
     "next_data_step",
     "open_backend",
     "open_task_files",
+    "people_tasks",
     "plan",
     "plan_document",
     "plan_table",

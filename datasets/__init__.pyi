@@ -7,7 +7,7 @@ from .archive import Archive, RecordingStatus, open_archive
 from .cmu import CMU_ACKNOWLEDGEMENT, CMU_URL, CMULibrary, registered_digests
 from .digests import DigestMismatch, UnregisteredDigestWarning
 from .errors import FetchError, RecordingUnavailable, ServerUnreachable, SkeletonUnavailable
-from .features import THESIS_CHANNELS, gpdm_features, hlm_features
+from .features import THESIS_CHANNELS, gpdm_channels, gpdm_features, hlm_features
 from .formats.angle_wrapping import unwrap_angles
 from .formats.base import Format
 from .formats.errors import FormatError, FormatWarning, MissingExtraError, TextColumnsWarning
@@ -28,6 +28,7 @@ from .kinematics import (
     position_channels,
 )
 from .library import Library, named_folders
+from .people import People, generated_people, read_people
 from .preprocessing import (
     integrate_root,
     one_based_frames,
@@ -69,6 +70,7 @@ __all__ = [
     "Motion",
     "NPZFormat",
     "ParquetFormat",
+    "People",
     "Recording",
     "RecordingStatus",
     "RecordingUnavailable",
@@ -86,6 +88,8 @@ __all__ = [
     "format_skeleton",
     "frame_rate",
     "gait_style",
+    "generated_people",
+    "gpdm_channels",
     "gpdm_features",
     "hlm_features",
     "integrate_root",
@@ -98,6 +102,7 @@ __all__ = [
     "parse_skeleton",
     "position_channels",
     "read_motion",
+    "read_people",
     "read_skeleton",
     "registered_digests",
     "resample",

@@ -14,7 +14,14 @@ from numpy.typing import NDArray
 from mocapbench.datasets.preprocessing import root_differences
 from mocapbench.datasets.recording import Recording
 
-__all__ = ["THESIS_CHANNELS", "gpdm_features", "hlm_features", "smoothness", "thesis_candidates"]
+__all__ = [
+    "THESIS_CHANNELS",
+    "gpdm_channels",
+    "gpdm_features",
+    "hlm_features",
+    "smoothness",
+    "thesis_candidates",
+]
 
 # fmt: off
 THESIS_CHANNELS = (
@@ -100,8 +107,27 @@ def gpdm_features(recording: Recording) -> Recording:
     >>> walk.values.shape, gpdm_features(walk).values.shape
     ((331, 62), (83, 50))
     """
-    kept = _without(_every_fourth(recording), _GPDM_REJECTED)
-    return root_differences(kept)
+    return gpdm_channels(_every_fourth(recording))
+
+
+def gpdm_channels(recording: Recording) -> Recording:
+    """Return the 50 channels of GPDM of a recording, at the frames that it has.
+
+    Parameters
+    ----------
+    recording : Recording
+        With the 62 channels of the CMU database, such as every 4th frame of one.
+
+    Raises
+    ------
+    ValueError
+        As `gpdm_features`.
+
+    See Also
+    --------
+    gpdm_features : Says which, and takes every 4th frame.
+    """
+    return root_differences(_without(recording, _GPDM_REJECTED))
 
 
 def hlm_features(recording: Recording) -> Recording:

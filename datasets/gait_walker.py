@@ -26,7 +26,7 @@ from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.kinematics import FrameByJointBy3, joint_positions
 from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
 
-__all__ = ["walk"]
+__all__ = ["ARMS", "LEGS", "walk"]
 
 Curve = tuple[float, tuple[tuple[float, float], ...]]
 """Offset in degrees, and amplitude (degrees) and phase (radians) of each harmonic."""

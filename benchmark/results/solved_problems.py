@@ -74,6 +74,6 @@ def _ranking(task: Task, records: Sequence[Record]) -> tuple[str, ...]:
 
 def _has_same_recordings(case: Case, record: Record, archive: Archive) -> bool:
     """Return whether the recordings of a case are those that the record is of."""
-    digests = {uri: archive.digest(uri) for uri in case.recordings}
+    digests = {uri: archive.digest(uri) for uri in case.recordings_in(record.address.fold or 0)}
     kept = {uri: record.provenance.get(f"digest of {uri}", now) for uri, now in digests.items()}
     return kept == digests

@@ -62,7 +62,7 @@ def fit_contents(
     return {
         "problem": [*seeds.address, seeds.root, dict(digests)],
         "posed by": _problem(case),
-        "training": case.training,
+        "training": case.training_in(seeds.fold),
         "entrant": [model.__qualname__, dict(parameters)],
         "source": [
             source_digest(model.__module__, _FITTING),
@@ -89,6 +89,7 @@ def training_contents(fitted: Mapping[str, Any], seeds: Seeds) -> Mapping[str, A
     return {"trained by": [*seeds.address, seeds.root], **shared}
 
 
+@cache  # it is that of all jobs of a case
 def _problem(case: Case) -> Any:
     """Describe what poses the problem; where cases share it, without the references of each."""
     match case.problem:

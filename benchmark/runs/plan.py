@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
@@ -47,11 +48,12 @@ def plan(request: Request, archive: Archive) -> tuple[Job, ...]:
     DigestMismatch
         If a recording is here but is not the registered one.
     """
+    lookup = _Lookup(archive)
     return tuple(
         job
         for task in consistent_tasks(request)
         for case in chosen_cases(request, task)
-        for job in _plan_case(request, task, case, archive)
+        for job in _plan_case(request, task, case, lookup)
     )
 
 
@@ -65,28 +67,32 @@ def required_recordings(request: Request, archive: Archive) -> tuple[str, ...]:
     """
     tasks = [task for task in consistent_tasks(request) if chosen_entrants(request, task)]
     cases = [(task, case) for task in tasks for case in chosen_cases(request, task)]
+    lookup = _Lookup(archive)
     for task, case in cases:
-        _missing_recordings(task, case, archive)
-    return tuple(dict.fromkeys(uri for _, case in cases for uri in case.recordings))
+        lookup.list_missing(task, case)
+    folds = ((case, fold) for task, case in cases for fold in range(chosen_folds(request, task)))
+    return tuple(dict.fromkeys(uri for case, fold in folds for uri in case.recordings_in(fold)))
 
 
-def _plan_case(request: Request, task: Task, case: Case, archive: Archive) -> Iterator[Job]:
+def _plan_case(request: Request, task: Task, case: Case, lookup: _Lookup) -> Iterator[Job]:
     """Yield the jobs of one case: by entrant, then by fold."""
-    missing = _missing_recordings(task, case, archive)
-    digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.recordings}
+    missing = lookup.list_missing(task, case)
+    folds = range(chosen_folds(request, task))
+    digests = [lookup.digests(case.recordings_in(fold)) for fold in folds]
     metrics = tuple(sorted(set(request.metrics or METRICS.names())))
     scored_by = metric_contents(map(METRICS.get, metrics))
     for address, entrant, seeds in _list_rows(request, task, case):
+        of_fold = digests[seeds.fold]
         yield Job(
             address=address,
             seeds=seeds,
-            training_seeds=seeds.of_training(case.training),
+            training_seeds=seeds.of_training(case.training_in(seeds.fold)),
             model=entrant.model,
             parameters=entrant.parameters,
             metrics=metrics,
-            digests=digests,
-            missing=missing,
-            **_name_results(case, seeds, entrant, digests, scored_by),
+            digests=of_fold,
+            missing=tuple(uri for uri in missing if uri in of_fold),
+            **_name_results(case, seeds, entrant, of_fold, scored_by),
         )
 
 
@@ -113,7 +119,8 @@ def _name_results(
     scored_by: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Return the keys of a job, and what they cover."""
-    seen, compared = ({uri: digests[uri] for uri in of} for of in (case.given, case.references))
+    taken = case.given_in(seeds.fold), case.references
+    seen, compared = ({uri: digests[uri] for uri in of} for of in taken)
     fitted = fit_contents(
         case,
         seeds,
@@ -124,27 +131,43 @@ def _name_results(
     )
     fit = key_of(fitted)
     scored = score_contents(fit, scored_by, case.name, compared)
-    training = training_contents(fitted, seeds.of_training(case.training))
+    shared = case.training_in(seeds.fold)
+    training = training_contents(fitted, seeds.of_training(shared))
     return {
         "key": key_of(scored),
         "fit_key": fit,
-        "training_key": key_of(training) if case.training else "",
+        "training_key": key_of(training) if shared else "",
         "parts": key_parts(fitted, scored),
     }
 
 
-def _missing_recordings(task: Task, case: Case, archive: Archive) -> tuple[str, ...]:
-    """Return the addresses of a case's recordings that are not at hand.
+class _Lookup:
+    """Which recordings are at hand, and their digests, each read once: cases have many in common.
 
-    Raises
-    ------
-    UsageError
-        If ``archive`` has no library for an address.
+    Parameters
+    ----------
+    archive : Archive
     """
-    try:
-        return tuple(uri for uri in case.recordings if not archive.available(uri))
-    except ValueError as error:  # no such library, or a malformed address
-        raise UsageError(f"task {task.name!r}, case {case.name!r}: {error}") from error
+
+    def __init__(self, archive: Archive) -> None:
+        self._is_available, self._digest = cache(archive.available), cache(archive.digest)
+
+    def list_missing(self, task: Task, case: Case) -> tuple[str, ...]:
+        """Return the addresses of a case's recordings that are not at hand.
+
+        Raises
+        ------
+        UsageError
+            If the archive has no library for an address.
+        """
+        try:
+            return tuple(uri for uri in case.recordings if not self._is_available(uri))
+        except ValueError as error:  # no such library, or a malformed address
+            raise UsageError(f"task {task.name!r}, case {case.name!r}: {error}") from error
+
+    def digests(self, uris: Iterable[str]) -> dict[str, str]:
+        """Return the digests of recordings, or what stands for that of one that is missing."""
+        return {uri: self._digest(uri) if self._is_available(uri) else _MISSING for uri in uris}
 
 
 def _complete_parameters(entrant: Entrant, case: Case, profile: Profile) -> Entrant:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import Any
 
 from mocapbench.baselines import Model
@@ -57,6 +58,12 @@ class Case:
         of the task are draws on the same recordings.
     parameters : mapping
         Parameters set on every model that has them, for example ``{"n_styles": 4}``.
+    given_by_fold : tuple of tuple of str
+        Where folds take recordings of their own, what models see in each, in turn. A fold whose
+        recordings are missing then keeps no other from being run.
+    training_by_fold : tuple of str
+        Where folds fall into groups that learn from the same recordings each, the names of these,
+        in turn.
     """
 
     name: str
@@ -69,8 +76,12 @@ class Case:
     synthetic: bool = False
     subjects: tuple[str, ...] = ()
     parameters: Mapping[str, object] = field(default_factory=dict)
+    given_by_fold: tuple[tuple[str, ...], ...] = ()
+    training_by_fold: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        given = self.given or tuple(dict.fromkeys(chain.from_iterable(self.given_by_fold)))
+        object.__setattr__(self, "given", given)
         object.__setattr__(self, "problem_name", self.problem_name or self.name)
 
     @property
@@ -82,6 +93,20 @@ class Case:
     def recordings(self) -> tuple[str, ...]:
         """Addresses of all recordings that it takes, each once."""
         return tuple(dict.fromkeys((*self.given, *self.references)))
+
+    def given_in(self, fold: int) -> tuple[str, ...]:
+        """Return the addresses of the recordings that models see in a fold."""
+        groups = self.given_by_fold or (self.given,)
+        return groups[fold % len(groups)]
+
+    def recordings_in(self, fold: int) -> tuple[str, ...]:
+        """Return the addresses of all recordings that a fold takes, each once."""
+        return tuple(dict.fromkeys((*self.given_in(fold), *self.references)))
+
+    def training_in(self, fold: int) -> str:
+        """Return the name of what models learn from in a fold, empty where others do not."""
+        names = self.training_by_fold or (self.training,)
+        return names[fold % len(names)]
 
 
 def on_recordings(cases: Iterable[Case]) -> tuple[str, ...]:

@@ -18,9 +18,18 @@ from mocapbench.benchmark.problems.masks import hide_runs
 from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.pages.marker_gaps import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, Recording, joint_trajectories, subject_of
+from mocapbench.datasets import Archive, Recording, Skeleton, joint_trajectories, subject_of
 
-__all__ = ["marker_gaps", "marker_gaps_problem"]
+__all__ = [
+    "LIMBS",
+    "N_BESIDE",
+    "ChooseJoints",
+    "choose_joints",
+    "choose_limb",
+    "marker_gaps",
+    "marker_gaps_problem",
+    "place_on_the_spot",
+]
 
 RATE = 30
 STEP = 4  # from 120 frames per second
@@ -44,12 +53,12 @@ ChooseJoints = Callable[[np.random.Generator, Joints], list[Joints]]
 """From random numbers and all joints to those of each gap."""
 
 
-def _some_joints(rng: np.random.Generator, joints: Joints, *, together: int) -> list[Joints]:
+def choose_joints(rng: np.random.Generator, joints: Joints, *, together: int) -> list[Joints]:
     """Return one gap of some joints, which lie anywhere."""
     return [tuple(rng.choice(joints, size=together, replace=False).tolist())]
 
 
-def _one_limb(rng: np.random.Generator, joints: Joints) -> list[Joints]:
+def choose_limb(rng: np.random.Generator, joints: Joints) -> list[Joints]:
     """Return one gap of an arm or a leg."""
     del joints  # limbs have names
     return [LIMBS[str(rng.choice(list(LIMBS)))]]
@@ -61,9 +70,9 @@ def _several_gaps(rng: np.random.Generator, joints: Joints) -> list[Joints]:
 
 
 PLACES: Mapping[str, ChooseJoints] = {
-    "one joint": partial(_some_joints, together=1),
-    "a limb": _one_limb,
-    "five joints": partial(_some_joints, together=5),
+    "one joint": partial(choose_joints, together=1),
+    "a limb": choose_limb,
+    "five joints": partial(choose_joints, together=5),
     "three gaps": _several_gaps,
 }
 
@@ -123,8 +132,13 @@ def _markers(archive: Archive, uri: str) -> Recording:
     """Return the joints at 30 frames per second, the root's path on the floor taken out."""
     recording = archive.recording(uri)
     kept = np.arange(0, min(len(recording.times), LONGEST_RECORDING), STEP)
-    on_the_spot = [name for name in recording.channels if name not in ("root.tx", "root.tz")]
-    return joint_trajectories(archive.skeleton(uri), recording.frames(kept).select(on_the_spot))
+    return place_on_the_spot(archive.skeleton(uri), recording.frames(kept))
+
+
+def place_on_the_spot(skeleton: Skeleton, recording: Recording) -> Recording:
+    """Return the joints' coordinates in cm, the root's path on the floor taken out."""
+    others = [name for name in recording.channels if name not in ("root.tx", "root.tz")]
+    return joint_trajectories(skeleton, recording.select(others))
 
 
 def _channels(joints: Joints) -> tuple[str, ...]:
