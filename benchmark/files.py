@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
-from mocapbench.basics.whole_files import LONGEST_NAME, target_of
+from mocapbench.basics.whole_files import LONGEST_NAME
 from mocapbench.benchmark.errors import UsageError
 
 __all__ = [
@@ -67,6 +67,4 @@ def words_of(error: OSError) -> str:
     said = error.strerror or str(error) or type(error).__name__
     if not isinstance(error.filename, str):
         return said
-    path = Path(error.filename)
-    target = target_of(path)  # people know the file by this name
-    return f"{path.with_name(target) if target else path}: {said}"
+    return f"{error.filename}: {said}"

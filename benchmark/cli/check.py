@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench.basics.whole_files import write_bytes, write_text
+from mocapbench.basics.whole_files import write_files
+from mocapbench.basics.words import encodable
 from mocapbench.benchmark import gate
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
@@ -143,7 +144,9 @@ def _show(result: Check, console: LiteralConsole) -> None:
 
 
 def _write(result: Check, markdown: Path | None, junit: Path | None) -> None:
+    contents = {}
     if markdown is not None:
-        write_text(markdown, gate.markdown(result))
+        contents[markdown] = encodable(gate.markdown(result)).encode()
     if junit is not None:
-        write_bytes(junit, gate.junit(result))
+        contents[junit] = gate.junit(result)
+    write_files(contents)

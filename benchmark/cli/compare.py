@@ -10,7 +10,8 @@ import typer
 
 from mocapbench import benchmark as bench
 from mocapbench import reports
-from mocapbench.basics.whole_files import write_text
+from mocapbench.basics.whole_files import write_files
+from mocapbench.basics.words import encodable
 from mocapbench.benchmark import comparison
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
@@ -65,10 +66,12 @@ def compare(
             console.print(f"The two have no value of {metric} in common.", highlight=False)
     for note in comparison.notes(rows, sides):
         console.print(note, highlight=False)
+    contents = {}
     if markdown is not None:
-        write_text(markdown, comparison.markdown(rows, sides))
+        contents[markdown] = encodable(comparison.markdown(rows, sides)).encode()
     if csv is not None:
-        write_text(csv, reports.csv_text(comparison.tidy(rows, sides)))
+        contents[csv] = reports.csv_text(comparison.tidy(rows, sides)).encode()
+    write_files(contents)
 
 
 def _sides(

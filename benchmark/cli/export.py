@@ -10,7 +10,7 @@ import typer
 
 from mocapbench import benchmark as bench
 from mocapbench import reports
-from mocapbench.basics.whole_files import atomic_write, write_text
+from mocapbench.basics.whole_files import atomic_write, write_text, write_together
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DEFAULT_OUT, Out, show_left_out
@@ -38,11 +38,13 @@ def export(
     folder.mkdir(parents=True, exist_ok=True)
     records = store.planned()
     tables = {"scores": bench.score_table(records), "jobs": bench.job_table(records)}
+    suffixes = ".csv and .parquet" if with_parquet else ".csv"
+    with write_together(folder, "tables") as drafts:
+        for name, table in tables.items():
+            _write_csv(table, drafts / f"{name}.csv")
+            if with_parquet:
+                _write_parquet(table, drafts / f"{name}.parquet")
     for name, table in tables.items():
-        _write_csv(table, folder / f"{name}.csv")
-        if with_parquet:
-            _write_parquet(table, folder / f"{name}.parquet")
-        suffixes = ".csv and .parquet" if with_parquet else ".csv"
         console.print(
             f"{format_count(len(table), 'row')}: {folder / name}{suffixes}", soft_wrap=True
         )

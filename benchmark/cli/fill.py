@@ -26,6 +26,7 @@ from mocapbench.benchmark.errors import ExitCode, UsageError
 
 if TYPE_CHECKING:
     from mocapbench.benchmark.filling import InputFile, OutputPaths, Workers
+    from mocapbench.benchmark.filling.filled_recording import FilledRecording
 
 __all__ = ["app"]
 
@@ -175,20 +176,26 @@ def _fill_file(
     console: LiteralConsole,
 ) -> ExitCode:
     """Fill a file, say why if that is impossible, and return the exit code for it."""
-    name = input_file.path.name
     try:
-        with console.status(f"{name}: comparing models") as status:
-            show = status.update if console.is_terminal else _print_now_and_then(console)
-            with _name_file(input_file):
-                watch = _make_watch(name, show)
-                filled = filling.fill(input_file.request, workers, effort, watch)
-        gaps = filling.tabulate_gaps(filled)
-        page = filling.compose_page(input_file, filled, gaps, _quote_command())
-        filling.write(input_file, filled, gaps, outputs, reports.render_filled(page))
+        with filling.reserve_outputs(outputs) as drafts:
+            filled = _compare_models(input_file, workers, effort, console)
+            gaps = filling.tabulate_gaps(filled)
+            page = filling.compose_page(input_file, filled, gaps, _quote_command())
+            filling.write(input_file, filled, gaps, drafts, reports.render_filled(page))
     except (datasets.FormatError, UsageError, OSError) as error:
         return explain(error)
     _print_result(page, outputs, console)
     return ExitCode.NOT_REPEATABLE if filled.stopped else ExitCode.OK
+
+
+def _compare_models(
+    input_file: InputFile, workers: Workers, effort: str, console: LiteralConsole
+) -> FilledRecording:
+    """Fill a file by the models that err least in held-out gaps, and show how far that is."""
+    name = input_file.path.name
+    with console.status(f"{name}: comparing models") as status, _name_file(input_file):
+        show = status.update if console.is_terminal else _print_now_and_then(console)
+        return filling.fill(input_file.request, workers, effort, _make_watch(name, show))
 
 
 def _make_watch(name: str, show: Callable[[str], object]) -> Callable[[int, int], None]:

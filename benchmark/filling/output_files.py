@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 import pandas as pd
 
-from mocapbench.basics.whole_files import write_text
+from mocapbench.basics.temporaries import sweep
+from mocapbench.basics.whole_files import write_text, write_together
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import ENTRIES, GAPS, require_short_names, require_writable_folder
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gaps import Gap, mask_gaps
 from mocapbench.benchmark.filling.input_files import InputFile
+from mocapbench.benchmark.runs.execution.scratch import scratch_folder
 from mocapbench.datasets import FrameByChannel
 from mocapbench.reports import csv_text
 
@@ -22,6 +24,7 @@ __all__ = [
     "OutputPaths",
     "name_output_files",
     "require_writable",
+    "reserve_outputs",
     "tabulate_entries",
     "write",
 ]
@@ -44,6 +47,7 @@ def name_output_files(files: Sequence[Path], folder: Path) -> list[OutputPaths]:
     if folder.exists() and not folder.is_dir():
         raise UsageError(f"--out: expected a folder, got the file {folder}; name another")
     require_writable_folder("--out", folder)
+    sweep(folder)  # which finishes what a killed process began
     outputs = [_name_outputs_of(file, folder) for file in files]
     paths = [path for of_one_file in outputs for path in of_one_file]
     if len(set(paths)) < len(paths):
@@ -72,17 +76,48 @@ def require_writable(source: InputFile, outputs: OutputPaths) -> None:
         If the format cannot write the copy.
     """
     require_short_names("--out", outputs)
+    _require_new(outputs)
+    request = source.request
+    whole = request.given.with_values(_hold_nearest(request.given.values))
+    with scratch_folder() as folder:
+        source.format.write(
+            folder / outputs[0].name, whole, like=source.path, replaced=request.target
+        )
+
+
+def _require_new(outputs: OutputPaths) -> None:
     existing = [path for path in outputs if path.exists()]
     if existing:
         raise UsageError(
             f"--out: expected no file called {existing[0]}, which would be overwritten; "
             "name another folder, or delete it"
         )
-    request = source.request
-    whole = request.given.with_values(_hold_nearest(request.given.values))
-    with TemporaryDirectory() as folder:
-        copy_path = Path(folder, outputs[0].name)
-        source.format.write(copy_path, whole, like=source.path, replaced=request.target)
+
+
+@contextmanager
+def reserve_outputs(outputs: OutputPaths) -> Iterator[OutputPaths]:
+    """Keep other processes from writing files, and yield where to write them until they are whole.
+
+    At the end of the context all take their places, or none if anything went wrong.
+
+    Raises
+    ------
+    UsageError
+        If one is there already.
+    OSError
+        If another process is writing them, or the folder cannot be written to.
+    """
+    folder, name = outputs[0].parent, outputs[0].name
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        with write_together(folder, name) as drafts:
+            _require_new(outputs)
+            copy, entries, gaps, page = (drafts / path.name for path in outputs)
+            yield copy, entries, gaps, page
+    except BaseException:
+        with suppress(OSError):  # it holds other files
+            folder.rmdir()
+        raise
 
 
 def _hold_nearest(values: FrameByChannel) -> FrameByChannel:
@@ -105,7 +140,16 @@ def write(
     outputs: OutputPaths,
     page: str,
 ) -> None:
-    """Write all files of one filled file, or none.
+    """Write all files of one filled file.
+
+    Parameters
+    ----------
+    input_file : InputFile
+    filled : FilledRecording
+    gaps_table : DataFrame
+    outputs : OutputPaths
+        What `reserve_outputs` yielded.
+    page : str
 
     Raises
     ------
@@ -115,18 +159,12 @@ def write(
         If a file cannot be written.
     """
     copy_path, entries_path, gaps_path, page_path = outputs
-    copy_path.parent.mkdir(parents=True, exist_ok=True)
-    try:
-        input_file.format.write(
-            copy_path, filled.recording, like=input_file.path, replaced=filled.request.target
-        )
-        write_text(entries_path, csv_text(tabulate_entries(filled, input_file.spikes)))
-        write_text(gaps_path, csv_text(gaps_table))
-        write_text(page_path, page)
-    except BaseException:
-        for path in outputs:
-            path.unlink(missing_ok=True)
-        raise
+    input_file.format.write(
+        copy_path, filled.recording, like=input_file.path, replaced=filled.request.target
+    )
+    write_text(entries_path, csv_text(tabulate_entries(filled, input_file.spikes)))
+    write_text(gaps_path, csv_text(gaps_table))
+    write_text(page_path, page)
 
 
 def tabulate_entries(filled: FilledRecording, spikes: Sequence[Gap]) -> pd.DataFrame:

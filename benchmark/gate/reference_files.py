@@ -16,8 +16,9 @@ from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
-from mocapbench.basics.whole_files import write_text
-from mocapbench.basics.words import printable
+from mocapbench.basics.temporaries import sweep
+from mocapbench.basics.whole_files import write_together
+from mocapbench.basics.words import encodable, printable
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.gate.reference import (
     COLUMNS,
@@ -58,6 +59,7 @@ def read_reference(path: Path) -> Reference | None:
                 "`mocapbench run` there again, which mends it"
             )
         return of_records(records, store.load_plan())
+    sweep(path if path.is_dir() else path.parent)  # which finishes what a killed update began
     files = sorted(path.glob("*.csv")) if path.is_dir() else [path] * path.is_file()
     return _join_references(path, [_parse(file) for file in files]) if files else None
 
@@ -116,7 +118,7 @@ def _row(row: Mapping[Any, Any]) -> tuple[Series, Folds]:
 
 
 def write_reference(path: Path, reference: Reference) -> None:
-    """Write the values to a ``.csv`` file, or to one per task of a folder; each is whole.
+    """Write the values to a ``.csv`` file, or to one per task of a folder, all together.
 
     Raises
     ------
@@ -125,17 +127,17 @@ def write_reference(path: Path, reference: Reference) -> None:
     """
     _require_lines(reference.values)
     if path.suffix == ".csv" and not path.is_dir():
-        return _write(path, reference.values, reference.about)
+        return _write(path.parent, {path.name: reference.values}, reference.about)
     by_task: dict[str, dict[Series, Folds]] = {}
     for series, folds in reference.values.items():
         by_task.setdefault(series.address.task, {})[series] = folds
     _require_file_names(by_task)
-    for task, values in by_task.items():
-        _write(path / f"{task}.csv", values, reference.about)
-    for file in path.glob("*.csv"):
-        if file.stem not in by_task:
-            file.unlink()
-    return None
+    return _write(
+        path,
+        {f"{task}.csv": values for task, values in by_task.items()},
+        reference.about,
+        [file.name for file in path.glob("*.csv")],
+    )
 
 
 def _require_lines(values: Iterable[Series]) -> None:
@@ -155,7 +157,20 @@ def _require_file_names(tasks: Iterable[str]) -> None:
             )
 
 
-def _write(path: Path, values: Mapping[Series, Folds], about: Mapping[str, str]) -> None:
+def _write(
+    folder: Path,
+    files: Mapping[str, Mapping[Series, Folds]],
+    about: Mapping[str, str],
+    earlier: Iterable[str] = (),
+) -> None:
+    """Write the values of each file in place of earlier files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with write_together(folder, "reference", obsolete={*earlier} - files.keys()) as drafts:
+        for name, values in files.items():
+            (drafts / name).write_bytes(encodable(_format(values, about)).encode())
+
+
+def _format(values: Mapping[Series, Folds], about: Mapping[str, str]) -> str:
     folds = range(1 + max(fold for folds in values.values() for fold in folds))
     buffer = io.StringIO()
     buffer.writelines(f"# {line}\n" for line in (FORMAT, *(f"{k}: {v}" for k, v in about.items())))
@@ -164,5 +179,4 @@ def _write(path: Path, values: Mapping[Series, Folds], about: Mapping[str, str])
     for series, by_fold in sorted(values.items()):
         cells = (guard_text(str(cell)) for cell in series.cells)
         writer.writerow([*cells, *(by_fold.get(fold) for fold in folds)])
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_text(path, buffer.getvalue())
+    return buffer.getvalue()

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
+from mocapbench.basics.temporaries import sweep, temporary_folder
 from mocapbench.basics.whole_files import write_bytes
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.merging.reconcile import (
@@ -73,7 +73,9 @@ def merge(paths: Sequence[Path], out: Path) -> Merged:
     with RunDirectory(out).locked():
         named = [out if path.resolve() == out.resolve() else path for path in paths]
         merged = _unite_runs(named if out in named else [out, *named], locked=out)
-        _write(merged, RunDirectory(out))
+        store = RunDirectory(out)
+        store.sweep()
+        _write(merged, store)
     return merged
 
 
@@ -100,8 +102,9 @@ def _unite_runs(paths: Sequence[Path], locked: Path | None = None) -> Merged:
 def _made_at_once(out: Path) -> Iterator[Path]:
     """Give a folder that takes the name ``out`` only when it is complete."""
     out.parent.mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory(dir=out.parent, prefix=f".{out.name}.") as folder:
-        complete = Path(folder) / "run"
+    sweep(out.parent)
+    with temporary_folder(out.parent) as folder:
+        complete = folder / "run"
         yield complete
         complete.replace(out)
 
@@ -119,5 +122,5 @@ def _write(merged: Merged, store: RunDirectory) -> None:
 def _copy(file: Path, target: Path) -> None:
     content = file.read_bytes()
     if not target.is_file() or target.read_bytes() != content:
-        target.parent.mkdir(exist_ok=True)
+        target.parent.mkdir(parents=True, exist_ok=True)
         write_bytes(target, content)

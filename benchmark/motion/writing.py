@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mocapbench.basics.whole_files import write_bytes
+from mocapbench.basics.whole_files import write_files
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import require_writable_folder
 from mocapbench.benchmark.motion.gif import gif_bytes
@@ -72,12 +72,11 @@ def write(motion: MadeMotion, files: Mapping[str, Path], title: str) -> list[Pat
             f"--{impossible[0]}: expected a task whose channels "
             f"{_NEEDED[impossible[0]]}, and {title} is of another; possible: {possible}"
         )
-    texts = {
+    written = {
         path: text for kind, named in files.items() for path, text in contents[kind](named).items()
     }
-    for path, content in texts.items():
-        write_bytes(path, content)
-    return [*texts]
+    write_files(written)
+    return [*written]
 
 
 _ANGLES = "are joint angles of a skeleton"

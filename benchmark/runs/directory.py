@@ -29,7 +29,8 @@ from typing import Any, TypeVar
 import numpy as np
 from filelock import FileLock, Timeout
 
-from mocapbench.basics.whole_files import atomic_write, target_of, write_text
+from mocapbench.basics.temporaries import sweep
+from mocapbench.basics.whole_files import atomic_write, write_text
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import words_of
 from mocapbench.benchmark.runs.fitting.fit import Fit
@@ -96,9 +97,8 @@ class RunDirectory:
         """
         cls.require_usable(path)
         try:
-            for folder in (_RECORDS, _PREDICTIONS):
-                (path / folder).mkdir(parents=True, exist_ok=True)
             if not cls.is_run(path):
+                path.mkdir(parents=True, exist_ok=True)
                 write_text(path / _MARKER, json.dumps({"format": _LAYOUT}))
         except OSError as error:
             raise UsageError(
@@ -118,6 +118,7 @@ class RunDirectory:
         """
         if path.exists() and not path.is_dir():
             raise UsageError(f"--out: expected a folder, got the file {path}; name another folder")
+        sweep(path)
         if cls.is_run(path):
             _require_layout(path)
         elif path.is_dir() and any(path.iterdir()):
@@ -166,19 +167,13 @@ class RunDirectory:
         return False
 
     def sweep(self) -> None:
-        """Delete temporary files that a killed run left; only for who has locked the folder.
-
-        Other commands write the check and the report, at any time: theirs stay.
-        """
-        top = [path for path in self.path.glob(".*") if target_of(path) in {_PLAN, _KEYS}]
-        below = [
-            path
-            for name in (_RECORDS, _PREDICTIONS)
-            for path in (self.path / name).rglob(".*")
-            if target_of(path)
-        ]
-        for path in top + below:
-            path.unlink()
+        """Delete temporary files that killed commands left, here and where records lie."""
+        for folder in (
+            self.path,
+            *self.path.glob(f"{_RECORDS}/*"),
+            *self.path.glob(f"{_PREDICTIONS}/*"),
+        ):
+            sweep(folder)
 
     def load(self, key: str) -> Record | None:
         """Return the record called ``key``, or None if it is absent or damaged."""
@@ -329,7 +324,7 @@ def _require_layout(path: Path) -> None:
 
 def _make_room(path: Path) -> Path:
     """Return ``path``, once its folder is there."""
-    path.parent.mkdir(exist_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
     return path
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from mocapbench.basics.temporaries import final_place
 from mocapbench.basics.words import join_names
 from mocapbench.benchmark.files import ENTRIES, GAPS
 from mocapbench.benchmark.registry import FORMATS
@@ -75,4 +76,5 @@ def _files(pattern: str, folder: Path) -> list[str]:
 
 def _is_recording(path: Path) -> bool:
     """Return whether a path is a file, and not what `mocapbench fill` has written beside one."""
-    return path.is_file() and not path.name.endswith((ENTRIES, GAPS))
+    whole = final_place(path) == path  # and not a draft of a file that is being filled
+    return whole and path.is_file() and not path.name.endswith((ENTRIES, GAPS))

@@ -12,6 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from mocapbench.basics.temporaries import final_place
 from mocapbench.basics.whole_files import stage_file
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.formats.angle_wrapping import unwrap_angles, wrap_angles
@@ -221,17 +222,18 @@ class Format(ABC):
             ``path`` is ``like``, or one of them cannot be read or written.
         """
         path, like = Path(path), Path(like)
-        self._check_suffix(path)
+        named = final_place(path)  # in messages: several files may be written together
+        self._check_suffix(named)
         if path.resolve() == like.resolve():
             advice = "choose another name or folder"
-            raise FormatError(str(path), "another file than the one read", "the same", advice)
+            raise FormatError(str(named), "another file than the one read", "the same", advice)
         raw = self.read_as_stated(like, rate=1.0)  # a rate, as times are not written
-        _check_shape(filled, raw, path)
+        _check_shape(filled, raw, named)
         new = (~raw.visible if replaced is None else np.asarray(replaced, dtype=bool)) & (
             filled.visible
         )
         values = wrap_angles(filled.values, raw.hide(new), new)
-        with _plain_errors(path), stage_file(path) as temporary:
+        with _plain_errors(named), stage_file(path) as temporary:
             self.save(temporary, values, new, like)
 
     def _check_suffix(self, path: Path) -> None:

@@ -12,6 +12,7 @@ from distributed import Client, LocalCluster, Worker, WorkerPlugin
 from mocapbench.benchmark.runs.cluster.admission import require_workers
 from mocapbench.benchmark.runs.cluster.backend import ClusterBackend
 from mocapbench.benchmark.runs.execution.fork_server import SAFE_PATH, environment
+from mocapbench.benchmark.runs.execution.scratch import process_folder
 
 __all__ = ["open_backend"]
 
@@ -42,6 +43,7 @@ def _cluster(n_workers: int) -> LocalCluster:
             threads_per_worker=1,
             host="127.0.0.1",
             dashboard_address="127.0.0.1:0",
+            local_directory=str(process_folder()),
             memory_limit=0,  # jobs have their own limit, and their processes are not the worker's
             silence_logs=logging.ERROR,
         )

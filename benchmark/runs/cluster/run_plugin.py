@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from typing import cast
 
 from distributed import Reschedule, Worker, WorkerPlugin, get_worker
 
+from mocapbench.basics.temporaries import temporary_folder
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.cluster.installation import difference, installation
 from mocapbench.benchmark.runs.cluster.worker_state import WorkerState
@@ -49,16 +50,16 @@ class RunPlugin(WorkerPlugin):
         """Prepare the worker for jobs, if it has what they need."""
         self._refusal = difference(self._expected, installation())
         if not self._refusal:
-            folder = tempfile.mkdtemp(dir=worker.local_directory, prefix="mocapbench-")
-            self._state = WorkerState(
-                Path(folder), worker.state.nthreads, self._config, self._files
-            )
+            self._held = ExitStack()
+            folder = self._held.enter_context(temporary_folder(Path(worker.local_directory)))
+            self._state = WorkerState(folder, worker.state.nthreads, self._config, self._files)
 
     def teardown(self, worker: Worker) -> None:
         """End what runs here and remove what was written."""
         del worker
         if self._state:
             self._state.close()
+            self._held.close()
 
     def run(self, worker: Worker, work: Work, recordings: Mapping[str, bytes]) -> Outcome:
         """Return the outcome of a job.

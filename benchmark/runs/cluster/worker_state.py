@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import multiprocessing
-import shutil
 from collections.abc import Mapping
 from concurrent.futures import CancelledError, Future
 from dataclasses import replace
@@ -28,7 +27,7 @@ class WorkerState:
     Parameters
     ----------
     folder : Path
-        A folder of its own, removed at the end.
+        A folder of its own.
     n_workers : int
         How many jobs run at once: the dask worker's threads.
     config : WorkerConfig
@@ -43,7 +42,6 @@ class WorkerState:
         # Under its nanny a dask worker is a daemon, and daemons may not start processes. Ours end
         # with it all the same.
         multiprocessing.current_process().daemon = False
-        self._folder = folder
         self._spool = Spool(folder / "recordings")
         self._spool.folder.mkdir()
         config = replace(
@@ -82,6 +80,5 @@ class WorkerState:
             self._running.discard(future)
 
     def close(self) -> None:
-        """Kill what runs, and leave nothing behind."""
+        """Kill what runs."""
         self._pool.stop(tuple(self._running))
-        shutil.rmtree(self._folder, ignore_errors=True)

@@ -11,11 +11,12 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from multiprocessing import forkserver, resource_tracker
 from multiprocessing.context import BaseContext, ForkServerContext, ForkServerProcess
-from multiprocessing.process import BaseProcess
+from multiprocessing.process import BaseProcess, current_process
 from types import ModuleType
 from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.runs.execution.scratch import process_folder
 
 __all__ = [
     "SAFE_PATH",
@@ -114,8 +115,19 @@ def _hide_script() -> Iterator[None]:
 
 def _ensure_running() -> None:
     multiprocessing.set_forkserver_preload(_PRELOAD)
-    with environment(_ONE_THREAD | SAFE_PATH), _without_interrupts():
+    temporary = {"TMPDIR": _keep_sockets_in_own_folder()}
+    with environment(_ONE_THREAD | SAFE_PATH | temporary), _without_interrupts():
         forkserver.ensure_running()
+
+
+def _keep_sockets_in_own_folder() -> str:
+    """Return our folder, and have `multiprocessing` use it unless it has made one of its own.
+
+    Its own stays if this process is killed, as does what a model keeps in one when it is.
+    """
+    folder = str(process_folder())
+    current_process()._config.setdefault("tempdir", folder)  # type: ignore[attr-defined]
+    return folder
 
 
 @contextmanager

@@ -1,59 +1,41 @@
-"""Folders of temporary files; one that a killed process left goes when the next one is made."""
+"""Folders of temporary files where the system keeps such files."""
 
 from __future__ import annotations
 
-import fcntl
 import os
-import shutil
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager
+from functools import cache
+from multiprocessing.util import Finalize
 from pathlib import Path
 
-__all__ = ["scratch_folder"]
+from mocapbench.basics.temporaries import sweep, temporary_folder
 
-_PREFIX = "mocapbench-scratch-"
+__all__ = ["process_folder", "scratch_folder"]
+
+_LAST = -200
+"""Of what is done when a process ends: after `multiprocessing` has deleted its own files."""
 
 
 @contextmanager
 def scratch_folder() -> Iterator[Path]:
-    """Make a folder of temporary files, which goes with the context.
-
-    Its maker and the processes forked from it hold its lock. Folders of which nobody holds the
-    lock are deleted: their makers were killed.
-    """
-    for left_behind in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*"):
-        _delete_unless_locked(left_behind)
-    folder, lock = _locked_folder()
-    try:
+    """Make a folder of temporary files, which goes with the context; those left behind go now."""
+    root = Path(tempfile.gettempdir())
+    sweep(root)
+    with temporary_folder(root) as folder:
         yield folder
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
-        os.close(lock)
 
 
-def _locked_folder() -> tuple[Path, int]:
-    """Return a new folder and the descriptor that holds its lock."""
-    while True:
-        folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
-        with suppress(FileNotFoundError):  # others may take it for left behind until it is locked
-            lock = _open_folder(folder)
-            with suppress(OSError):  # a file system without locks, where nothing is deleted either
-                fcntl.flock(lock, fcntl.LOCK_EX)
-            if folder.exists():
-                return folder, lock
-            os.close(lock)
+def process_folder() -> Path:
+    """Return a scratch folder of this process, which goes when the process ends."""
+    return _folder_of(os.getpid())
 
 
-def _delete_unless_locked(folder: Path) -> None:
-    with suppress(OSError):  # deleted by others just now, or not ours
-        lock = _open_folder(folder)
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            shutil.rmtree(folder, ignore_errors=True)
-        finally:
-            os.close(lock)
-
-
-def _open_folder(folder: Path) -> int:
-    return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+@cache
+def _folder_of(_pid: int) -> Path:
+    """Return the folder of this process, and not of the one from which it was forked."""
+    held = ExitStack()
+    folder = held.enter_context(scratch_folder())
+    Finalize(None, held.close, exitpriority=_LAST)
+    return folder

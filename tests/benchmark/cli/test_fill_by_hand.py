@@ -120,7 +120,8 @@ def test_the_table_of_gaps_is_written_with_the_others_or_none_is(cli, walk, out,
 
     monkeypatch.setattr(output_files, "write_text", fail)
     assert cli("fill", walk, "--model", "linear", "--out", out) == 2
-    assert not [*out.iterdir()]
+    assert not out.exists()
+    out.mkdir()
     (out / "walk.csv.gaps.csv").write_text("mine")
     assert cli("fill", walk, "--model", "linear", "--out", out) == 2
     assert "walk.csv.gaps.csv, which would be overwritten" in cli.printed

@@ -166,10 +166,11 @@ def test_the_log_of_a_refused_run_tells_its_end(cli, tmp_path):
 
 def test_a_run_sweeps_what_a_killed_one_left(cli, tmp_path):
     RunDirectory.create(tmp_path / "run")
-    for name in (".plan.json.abcdefgh.tmp", "records/.k.json.abcdefgh.tmp"):
+    for name in (".mocapbench-tmp-abcdef12", "records/ab/.mocapbench-tmp-abcdef12"):
+        (tmp_path / "run" / name).parent.mkdir(exist_ok=True, parents=True)
         (tmp_path / "run" / name).write_text("half")
     assert cli(*TOY, "--models", "trivial", "--folds", 1, "--out", tmp_path / "run") == 0
-    assert [*(tmp_path / "run").rglob("*.tmp")] == []
+    assert [*(tmp_path / "run").rglob(".mocapbench-tmp-*")] == []
 
 
 @pytest.mark.slow

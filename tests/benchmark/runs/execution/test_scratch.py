@@ -78,7 +78,7 @@ def test_it_lives_while_a_child_of_its_killed_maker_does(tmp_path):
         os.killpg(maker.pid, signal.SIGKILL)
 
 
-@pytest.mark.parametrize("name", ["mocapbench-results", "scratch", "mocapbench"])
+@pytest.mark.parametrize("name", ["mocapbench-results", "scratch", ".mocapbench"])
 def test_other_folders_are_left_alone(tmp_path, name):
     (tmp_path / name).mkdir()
     with scratch_folder():
@@ -89,7 +89,7 @@ def test_other_folders_are_left_alone(tmp_path, name):
 def test_a_link_is_not_followed(tmp_path):
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "file").write_text("mine")
-    (tmp_path / "mocapbench-scratch-abcdefgh").symlink_to(tmp_path / "mine")
+    (tmp_path / ".mocapbench-tmp-abcdefgh").symlink_to(tmp_path / "mine")
     with scratch_folder():
         pass
     assert (tmp_path / "mine" / "file").read_text() == "mine"
