@@ -11,6 +11,7 @@ from distributed import CancelledError, Client, Future, KilledWorker, wait
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.messages import reason
+from mocapbench.benchmark.runs.cluster.client_watch import ClientWatch
 from mocapbench.benchmark.runs.cluster.installation import installation
 from mocapbench.benchmark.runs.cluster.plugin_files import read_plugin_files
 from mocapbench.benchmark.runs.cluster.run_plugin import RunPlugin, run_on_worker
@@ -40,6 +41,7 @@ class ClusterExecutor:
         self._recordings: dict[str, Future[bytes]] = {}
         name, files = f"mocapbench-{uuid.uuid4().hex}", read_plugin_files(config.plugins)
         self._plugin = RunPlugin(name, config, files, installation())
+        client.register_plugin(ClientWatch(client.id, name))
         client.register_plugin(self._plugin)
 
     def submit(self, work: Work) -> Future[Outcome]:
