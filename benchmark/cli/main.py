@@ -10,12 +10,14 @@ from typing import Any
 from mocapbench.benchmark import cli
 from mocapbench.benchmark.cli.ending.outputs import whole_outputs
 from mocapbench.benchmark.cli.ending.signals import wind_up_at_signals
+from mocapbench.benchmark.cli.search_path import forget_empty_entries
 
 __all__ = ["main"]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; errors become one line and an exit code."""
+    forget_empty_entries()
     with wind_up_at_signals(), whole_outputs(), warnings.catch_warnings():
         warnings.showwarning = _showing_each_once()
         try:

@@ -141,3 +141,32 @@ def scheduler(hostile, environment, tmp_path):
 
 def test_a_cluster_that_is_there_already(give, scheduler):
     give(*TOY, "--scheduler", scheduler, "--out", "on-scheduler")
+
+
+LOADED_LATER = ("numpy", "psutil", "typer", "rich", "random", "socket", "multiprocessing")
+"""Python itself may load others before any program of ours begins."""
+
+
+@pytest.mark.parametrize(
+    ("path", "is_searched"),
+    [(":", False), (":/mine", False), ("/mine:", False), ("/mine", False), (".:", True)],
+)
+def test_an_empty_entry_of_the_search_path_does_not_stand_for_the_current_folder(
+    environment, tmp_path, path, is_searched
+):
+    sent = tmp_path / "sent"
+    sent.mkdir()
+    for name in LOADED_LATER:
+        (sent / f"{name}.py").write_text("import os\nos.write(1, b'run')\nos._exit(1)\n")
+    write_csv(sent / "walk.csv", gaps=[(20, 26, 0)])
+    program = write_program(tmp_path / "bin")
+    words = [sys.executable, program, "fill", "walk.csv", "--model", "linear"]
+    done = subprocess.run(
+        words,
+        cwd=sent,
+        env={**environment, "PYTHONPATH": path},
+        stdout=subprocess.PIPE,
+        check=False,
+    )
+    assert done.stdout.startswith(b"run") == is_searched
+    assert (done.returncode == 0) != is_searched
