@@ -46,6 +46,8 @@ SAFE_PATH = {"PYTHONSAFEPATH": "mocapbench"}
 There it looks first for what `multiprocessing` imports, so that a file random.py beside the data
 would be run. Any text has this effect; ours tells who set it.
 """
+_LONGEST_FOLDER = 107 - len("/listener-12345678")
+"""In bytes, of one for sockets, whose paths may have 107."""
 _ENVIRONMENT_LOCK = threading.Lock()
 
 
@@ -126,7 +128,8 @@ def _keep_sockets_in_own_folder() -> str:
     Its own stays if this process is killed, as does what a model keeps in one when it is.
     """
     folder = str(process_folder())
-    current_process()._config.setdefault("tempdir", folder)  # type: ignore[attr-defined]
+    if len(os.fsencode(folder)) <= _LONGEST_FOLDER:
+        current_process()._config.setdefault("tempdir", folder)  # type: ignore[attr-defined]
     return folder
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from mocapbench.basics.temporaries import PREFIX
 from mocapbench.benchmark.cli import fill as command
 from mocapbench.benchmark.filling import output_files
 from mocapbench.datasets import CSVFormat
@@ -125,3 +126,35 @@ def test_the_table_of_gaps_is_written_with_the_others_or_none_is(cli, walk, out,
     (out / "walk.csv.gaps.csv").write_text("mine")
     assert cli("fill", walk, "--model", "linear", "--out", out) == 2
     assert "walk.csv.gaps.csv, which would be overwritten" in cli.printed
+
+
+def test_of_two_fills_of_one_file_at_once_the_second_is_refused(cli, walk, out):
+    files = (walk, *(out / f"walk.csv{end}" for end in (".entries.csv", ".gaps.csv", ".html")))
+    outputs = tuple(out / path.name for path in files)
+    with output_files.reserve_outputs(outputs) as drafts:
+        assert cli("fill", walk, "--model", "linear", "--out", out) == 2
+        assert f"{out / 'walk.csv'}: another process is writing it" in cli.printed
+        for path in drafts:
+            path.write_text("of the first")
+    assert [path.read_text() for path in outputs] == ["of the first"] * 4
+    assert cli("fill", walk, "--model", "linear", "--out", out) == 2
+    assert "would be overwritten" in cli.printed
+
+
+def test_a_fill_that_was_killed_before_its_files_counted_is_no_hindrance(cli, walk, out):
+    drafts = out / f"{PREFIX}walk.csv" / "drafts"
+    drafts.mkdir(parents=True)
+    (drafts / "walk.csv").write_text("half")
+    assert cli("fill", walk, "--model", "linear", "--out", out) == 0
+    assert len([*out.iterdir()]) == 4
+
+
+def test_a_fill_that_was_killed_once_its_files_counted_is_finished_by_the_next(cli, walk, out):
+    assert cli("fill", walk, "--model", "linear", "--out", out) == 0
+    left = out / f"{PREFIX}walk.csv" / "decided"
+    left.mkdir(parents=True)
+    (out / "walk.csv.html").rename(left / "walk.csv.html")
+    assert cli("fill", walk, "--model", "linear", "--out", out) == 2
+    assert "would be overwritten" in cli.printed
+    assert (out / "walk.csv.html").exists()
+    assert len([*out.iterdir()]) == 4

@@ -4,6 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mocapbench.basics.temporaries import PREFIX
+from mocapbench.basics.whole_files import write_together
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.gate.reference import Reference, Series
 from mocapbench.benchmark.gate.reference_files import read_reference, write_reference
@@ -133,3 +135,26 @@ def test_files_of_two_profiles_do_not_belong_together(tmp_path):
         )
     with pytest.raises(UsageError, match=r"expected one profile .* got quick and smoke"):
         read_reference(tmp_path)
+
+
+def test_an_update_that_was_killed_midway_is_finished_before_the_values_are_read(tmp_path):
+    new = Reference({_series(): {0: 2.0}}, ABOUT)
+    write_reference(tmp_path / "folder", new)
+    (written,) = (tmp_path / "folder").iterdir()
+    left = tmp_path / "folder" / f"{PREFIX}reference"
+    (left / "decided").mkdir(parents=True)
+    (left / "obsolete").mkdir()
+    written.rename(left / "decided" / written.name)
+    (left / "obsolete" / "gone.csv").touch()
+    (tmp_path / "folder" / "gone.csv").write_text("half of what was there before")
+    assert read_reference(tmp_path / "folder").values == new.values
+    assert [*(tmp_path / "folder").iterdir()] == [written]
+
+
+def test_values_that_another_process_writes_are_not_written_meanwhile(tmp_path):
+    values = Reference({_series(): {0: 1.0}}, ABOUT)
+    with (
+        write_together(tmp_path, "reference"),
+        pytest.raises(BlockingIOError, match="another process"),
+    ):
+        write_reference(tmp_path / "b.csv", values)

@@ -119,6 +119,16 @@ def test_an_interrupt_ends_what_runs_on_the_cluster(asleep, ends, tmp_path):
     assert not any((tmp_path / "run" / "records").rglob("*.json"))
 
 
+def test_a_run_that_is_killed_ends_on_the_cluster_too(asleep, ends):
+    run, sleeper, file = asleep
+    run.kill()
+    assert ends(sleeper)
+    latest = time.monotonic() + 60
+    while file.exists() and time.monotonic() < latest:
+        time.sleep(0.1)
+    assert not file.exists()
+
+
 def test_a_worker_that_leaves_hands_its_job_on(asleep, scheduler, records, ends, tmp_path):
     run, sleeper, _ = asleep
     with Client(scheduler) as client:

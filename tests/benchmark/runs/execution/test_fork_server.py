@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import psutil
@@ -12,6 +13,7 @@ from hostile_folder import HostileFolder
 from threadpoolctl import threadpool_info
 
 from mocapbench import benchmark as bench
+from mocapbench.benchmark.runs.execution.scratch import scratch_folder
 from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 
 
@@ -78,3 +80,34 @@ def test_a_server_that_is_loading_does_not_hear_of_an_interrupt():
         complaint = process.communicate()[1]
     assert "KeyboardInterrupt" in complaint  # of the process that started the server
     assert "forkserver" not in complaint
+
+
+START_ONE = """
+import os, time
+from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
+if __name__ == "__main__":
+    pool = WorkerPool(1)
+    asked = pool.submit(os.getenv, "TMPDIR").result()
+    print(asked, flush=True)
+    time.sleep({seconds})
+    pool.stop()
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("is_killed", [True, False])
+def test_what_processes_leave_lies_in_one_folder_which_the_next_start_deletes(
+    tmp_path, tmp_path_factory, monkeypatch, is_killed
+):
+    program, temporary = tmp_path / "program.py", tmp_path_factory.mktemp("t")
+    program.write_text(START_ONE.format(seconds=600 if is_killed else 0))
+    monkeypatch.setenv("TMPDIR", str(temporary))
+    with subprocess.Popen([sys.executable, program], stdout=subprocess.PIPE, text=True) as process:
+        folder = process.stdout.readline().strip()
+        if is_killed:
+            assert [str(path) for path in temporary.iterdir()] == [folder]
+            process.kill()
+    assert len([*temporary.iterdir()]) == is_killed
+    monkeypatch.setattr(tempfile, "tempdir", None)
+    with scratch_folder() as ours:
+        assert [*temporary.iterdir()] == [ours]
