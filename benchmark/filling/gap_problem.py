@@ -28,6 +28,8 @@ __all__ = [
     "select_channels",
 ]
 
+_FEWEST_SEEN = 2
+"""Visible entries of a channel from which models learn."""
 _LEAST_CONTEXT = 10
 """Frames on each side of a gap, as far as there are any."""
 
@@ -82,9 +84,14 @@ def pose_imputing(problem: GapProblem) -> ImputeProblem:
 
 
 def drop_unseen(problem: GapProblem) -> GapProblem:
-    """Return the problem without channels of which nothing is visible, unless they are wanted."""
+    """Return the problem without channels of which little is visible, unless they are wanted.
+
+    A marker that is seen once, as those that are attached for calibration alone, tells a model
+    nothing of how far it goes.
+    """
     recordings = (problem.given, *problem.train)
-    seen = np.any([recording.visible.any(axis=0) for recording in recordings], axis=0)
+    counts = np.sum([recording.visible.sum(axis=0) for recording in recordings], axis=0)
+    seen = counts >= _FEWEST_SEEN
     return select_channels(problem, seen | problem.target.any(axis=0))
 
 

@@ -3,10 +3,10 @@
     python docs/evidence/marker_files.py FILE [FILE ...]
 
 Hides more gaps of single markers in each file where they are visible: ten, of a twentieth of a
-second to a second. `best` fills them, and so does each model that it compared. Prints the root mean
-squared distances, in the file's unit, of the choice and of the model with the least, and the ratio
-of the two. Of an Acclaim file, the positions of joints take the place of markers. Only the first
-1500 frames count. Takes about a minute a file.
+second to a second. Gaps at the ends of a file stay open. `best` fills the others, and so does each
+model that it compared. Prints the root mean squared distances, in the file's unit, of the choice
+and of the model with the least, and the ratio of the two. Of an Acclaim file, the positions of
+joints take the place of markers. Only the first 1500 frames count. Takes about a minute a file.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 import mocapbench
 from mocapbench.benchmark.filling.costs import predict_seconds
 from mocapbench.benchmark.filling.filled_recording import fill
+from mocapbench.benchmark.filling.gaps import mask_ends
 from mocapbench.benchmark.filling.requests.request import BEST, FillRequest
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.datasets import AcclaimFormat, Mask, Recording, joint_trajectories
@@ -74,9 +75,10 @@ def measure_errors(
 ) -> Iterator[tuple[str, float, str]]:
     """Yield `best` and each model that it compared, with its error; the first with its choice."""
     given = recording.hide(hidden)
-    request = FillRequest(given, ~given.visible, np.full(int((~given.visible).sum()), BEST))
+    target = ~given.visible & ~mask_ends(given.visible)
+    request = FillRequest(given, target, np.full(int(target.sum()), BEST))
     filled = fill(request, workers, "normal", lambda *_: None)
-    where = hidden[~given.visible]
+    where = hidden[target]
     truth = recording.values[hidden]
 
     def measure(mean: NDArray[np.float64]) -> float:
