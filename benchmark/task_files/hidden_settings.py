@@ -85,7 +85,7 @@ def read_hidden(document: Document, address: Callable[[str], str]) -> Hidden:
         raise document.error("hide", "a table of what is hidden", "none", advice)
     document.require_known("hide", HIDE_KEYS)
     channels = read_channels(document, "hide.channels")
-    readers = {
+    readers: Mapping[str, Callable[[Document, tuple[str, ...]], Hidden]] = {
         "frames": _read_frames,
         "fraction": _read_fraction,
         "runs": _read_runs,

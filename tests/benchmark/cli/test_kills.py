@@ -1,4 +1,4 @@
-"""Commands that are killed at random moments leave nothing, and go on; more of them in the script."""
+"""Commands that are killed at random moments leave nothing, and go on; the script kills more."""
 
 import subprocess
 import sys
