@@ -50,6 +50,18 @@ def test_a_near_mean_that_is_sure_is_within_one_of_the_two(value, share, two_sd,
     assert not (far and found is PublishedVerdict.WITHIN_2_PERCENT)
 
 
+@pytest.mark.parametrize(
+    ("ours", "half_width", "expected"),
+    [
+        (102.0, 2.0, PublishedVerdict.WITHIN_2_PERCENT),
+        (108.0, 8.0, PublishedVerdict.WITHIN_PAPER_SD),
+        (112.0, 4.0, PublishedVerdict.UNDECIDED),
+    ],
+)
+def test_what_is_at_an_edge_is_within_it(ours, half_width, expected):
+    assert verdict(ours, printed(100.0, 8.0), LOWER, half_width) is expected
+
+
 @given(sizes, sizes)
 def test_without_a_printed_spread_nothing_is_within_it(ours, value):
     assert verdict(ours, printed(value), LOWER) is not PublishedVerdict.WITHIN_PAPER_SD

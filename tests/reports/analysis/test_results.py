@@ -120,6 +120,18 @@ def test_an_estimate_is_that_of_the_folds_that_have_a_score(small, lost):
         assert ours == (None if alone is None else pytest.approx(alone))
 
 
+def test_a_subject_without_a_score_in_one_recording_counts_by_the_other(small):
+    def estimate_of(values, subjects):
+        cases = (CaseLayout("row", {}, subjects=subjects),)
+        table = {"row": {"a": values, "complete": [1.0] * len(values)}}
+        results = results_of(small(table, cases=cases))
+        return results.estimate("row", "a", "mse")
+
+    lost = estimate_of([1.0, np.nan, 3.0, 7.0, 2.0, 5.0], tuple("aabcde"))
+    assert lost == estimate_of([1.0, 3.0, 7.0, 2.0, 5.0], tuple("abcde"))
+    assert lost.half_width is not None
+
+
 @pytest.mark.parametrize(
     ("subjects", "independent", "units"),
     [

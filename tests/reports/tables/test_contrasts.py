@@ -53,6 +53,26 @@ def test_all_pairs_at_once_are_the_contrasts_one_by_one(small, seed):
         assert many.separable == (not many.low <= 0.0 <= many.high)
 
 
+def test_a_second_recording_of_every_subject_changes_no_contrast(small):
+    twice = {**VALUES, **{f"{case} again": folds for case, folds in VALUES.items()}}
+    once, again = (
+        contrast_of(
+            results_of(
+                small(
+                    table,
+                    cases=tuple(CaseLayout(c, {}, subjects=(c.split()[1],)) for c in table),
+                    independent_folds=False,
+                )
+            ),
+            *("a", "b"),
+        )
+        for table in (VALUES, twice)
+    )
+    assert (once.n, again.n) == (6, 6)
+    for name in ("first", "second", "advantage", "low", "high", "t_p"):
+        assert getattr(again, name) == pytest.approx(getattr(once, name))
+
+
 @laws
 @given(st.integers(0, 100_000))
 def test_pairs_with_the_best_are_those_of_the_standings_and_others_a_family(small, seed):
