@@ -15,9 +15,7 @@ from collections.abc import Sequence
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.gp.prior.parameters import CHILD
-from mocapbench.baselines.gp.reduction.one_layer import separate_replicates
-from mocapbench.baselines.gp.reduction.reduction import Reduction
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Reduction, Replicates, separate_replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
 
 __all__ = ["LMCIndependent"]

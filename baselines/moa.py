@@ -17,9 +17,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.gp.prior.parameters import PARENT
-from mocapbench.baselines.gp.reduction.one_layer import pool_replicates
-from mocapbench.baselines.gp.reduction.reduction import Reduction
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Reduction, Replicates, pool_replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
 from mocapbench.baselines.protocols import Trended
 from mocapbench.datasets import FrameByChannel, Frames

@@ -23,8 +23,7 @@ from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.gp.prior.parameters import CHILD
 from mocapbench.baselines.gp.reduction.hierarchy import reduce_hierarchy
-from mocapbench.baselines.gp.reduction.reduction import Reduction
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Reduction, Replicates
 from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow, is_path
 from mocapbench.baselines.gp.registration import REGISTRATIONS
 from mocapbench.baselines.protocols import Trended

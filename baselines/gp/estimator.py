@@ -34,8 +34,7 @@ from mocapbench.baselines.gp.leave_one_out import leave_one_out_ratios
 from mocapbench.baselines.gp.prior.kernels import KERNELS
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.process import TRENDS, Curve, FittedProcess
-from mocapbench.baselines.gp.reduction.reduction import Reduction
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Reduction, Replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
 from mocapbench.baselines.gp.solvers.planner import (
     PLANS,

@@ -9,9 +9,7 @@ import numpy as np
 from mocapbench.baselines.gp.prior.kernels import KERNELS, StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParameters, Parameters
 from mocapbench.baselines.gp.reduction.hierarchy import reduce_hierarchy
-from mocapbench.baselines.gp.reduction.one_layer import separate_replicates
-from mocapbench.baselines.gp.reduction.reduction import Reduction
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Reduction, Replicates, separate_replicates
 
 __all__ = ["SIZES", "Problem", "Size", "pose"]
 

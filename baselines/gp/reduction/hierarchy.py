@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from mocapbench.baselines.gp.prior.parameters import CHILD
-from mocapbench.baselines.gp.reduction.reduction import Reduction
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Reduction, Replicates
 from mocapbench.baselines.gp.reduction.tree import Node, Tree, grow
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.basics.arrays import Array

@@ -17,7 +17,7 @@ import numpy as np
 
 from mocapbench.baselines.common.signs import orient_vectors
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
 from mocapbench.basics.arrays import Array
 

@@ -13,7 +13,7 @@ from sklearn.exceptions import NotFittedError
 from mocapbench.baselines.calibrated import Calibrated
 from mocapbench.baselines.calibration.left_out_entries import leave_one_out_factors
 from mocapbench.baselines.gp.prior.kernels import KERNELS
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Replicates
 from mocapbench.baselines.gp.solvers.planner import PLANS
 from mocapbench.baselines.gp_independent import GPIndependent
 from mocapbench.baselines.hgp import HGP

@@ -14,9 +14,12 @@ from mocapbench.baselines.gp.prior.kernels import KERNELS, StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParameters, Parameters
 from mocapbench.baselines.gp.process import FittedProcess
 from mocapbench.baselines.gp.reduction.hierarchy import reduce_hierarchy
-from mocapbench.baselines.gp.reduction.one_layer import pool_replicates, separate_replicates
-from mocapbench.baselines.gp.reduction.reduction import Reduction
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import (
+    Reduction,
+    Replicates,
+    pool_replicates,
+    separate_replicates,
+)
 from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.solver import Solver

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Replicates
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.kronecker import Kronecker
 from mocapbench.baselines.gp.solvers.latent_split.split_solver import LatentSplit

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Replicates
 from mocapbench.baselines.gp.solvers.dense import Dense
 
 STRUCTURES = ("hierarchical", "pooled", "independent")

@@ -1,6 +1,6 @@
 import numpy as np
 
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Replicates
 from mocapbench.datasets import Recording
 
 NAN = np.nan

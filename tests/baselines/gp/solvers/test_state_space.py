@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
-from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.reduction import Replicates
 from mocapbench.baselines.gp.solvers.block import Target
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
