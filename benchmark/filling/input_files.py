@@ -83,7 +83,7 @@ def read_input_files(
     UsageError
         As the first file where none can be filled.
     """
-    others = {path.resolve(): reading.read(path) for path in train}
+    others = {path.resolve(): reading.read_without_spikes(path) for path in train}
     inputs: list[InputFile] = []
     refused: list[Exception] = []
     for path in files:

@@ -32,7 +32,7 @@ class Reading(NamedTuple):
     missing : callable
         What tells missing values.
     spikes : callable or None
-        What tells spikes, which are hidden in the files to fill.
+        What tells spikes, which are hidden.
     """
 
     rate: float | None = None
@@ -54,6 +54,15 @@ class Reading(NamedTuple):
         likely = self.read_as_stated(path)
         mask, remarks = self.missing(likely)
         return unwrap_angles(likely.hide(mask)), remarks
+
+    def read_without_spikes(self, path: Path) -> tuple[Recording, tuple[str, ...]]:
+        """Return the recording of a file to learn from, as `read` does, with spikes hidden."""
+        recording, remarks = self.read(path)
+        results = self.format_of(path).results(path, recording.channels)
+        spikes, said = self.find_spikes(recording, results)
+        if not spikes.any():
+            return recording, remarks
+        return unwrap_angles(recording.hide(spikes)), (*remarks, *said)
 
     def suggest_likelihoods(self, path: Path) -> str:
         """Return what to add to a message that nothing is hidden, if the file has likelihoods."""

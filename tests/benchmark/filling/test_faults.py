@@ -1,5 +1,6 @@
 """Faults that touch a gap to fill are said; spikes may be hidden, and are then gaps."""
 
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from mocapbench.benchmark.filling.faults import (
     find_faults_at_gaps,
     tabulate_faults,
 )
+from mocapbench.benchmark.filling.input_files import read_input_files
 from mocapbench.benchmark.filling.requests.request import NamedEntries, select
 from mocapbench.benchmark.recording_checks import tell_spikes
 from mocapbench.datasets import Recording
@@ -108,6 +110,41 @@ def spiky(tmp_path):
     path = tmp_path / "walk.csv"
     table.to_csv(path, index=False)
     return path
+
+
+def read_to_fill(path, train, reading):
+    """Return what is to be filled of a file, as the command reads it."""
+    ((source,), refused) = read_input_files(
+        [path], [train], reading, NamedEntries(), lambda _: None
+    )
+    assert not refused
+    return source
+
+
+def test_spikes_of_files_to_learn_from_are_hidden_with_those_to_fill(spiky, tmp_path):
+    train = tmp_path / "other.csv"
+    shutil.copy(spiky, train)
+    hiding = read_to_fill(spiky, train, Reading(spikes=tell_spikes))
+    (learned,) = hiding.request.train
+    assert np.isnan(learned.values[98:100, 6:9]).all()
+    assert np.isnan(learned.values[200, 12:15]).all()
+    assert np.isnan(learned.values).sum() == 30 + 9
+    assert any(
+        text == "other.csv: 2 spikes of M2 and M4 are hidden (9 entries), as --hide-spikes says."
+        for text in hiding.remarks
+    )
+    plain = read_to_fill(spiky, train, Reading())
+    assert np.isnan(plain.request.train[0].values).sum() == 30
+    assert plain.remarks == ()
+
+
+def test_files_to_learn_from_without_spikes_are_not_mentioned(spiky, tmp_path):
+    train = tmp_path / "other.csv"
+    pd.read_csv(spiky).drop(index=[98, 99, 200]).assign(time=np.arange(297) / 120).to_csv(
+        train, index=False
+    )
+    source = read_to_fill(spiky, train, Reading(spikes=tell_spikes))
+    assert not any("other.csv" in text for text in source.remarks)
 
 
 @pytest.mark.slow
