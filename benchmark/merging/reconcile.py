@@ -203,7 +203,7 @@ def unite_plans(
         _in_table_order(jobs),
         provenance=_provenance(runs),
         runs=runs,
-        task_files=[file.to_plain() for file in task_files],
+        task_files=task_files,
     )
 
 

@@ -85,7 +85,10 @@ def cell_command(of_cell: Sequence[Record]) -> tuple[str, ...]:
 @cache
 def _keep_options(line: str) -> tuple[str, ...]:
     """Return the options of a run that its cells depend on, as one piece, or none."""
-    program, words = shlex.split(line)[:2], iter(shlex.split(line)[2:])
+    try:
+        program, words = shlex.split(line)[:2], iter(shlex.split(line)[2:])
+    except ValueError:  # a quotation without an end, which no shell would have run
+        return ()
     kept: list[str] = []
     for word in words if program == ["mocapbench", "run"] else ():
         name, bound, _ = word.partition("=")

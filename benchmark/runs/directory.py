@@ -24,8 +24,9 @@ import zipfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_type_hints
 
+import msgspec
 import numpy as np
 from filelock import FileLock, Timeout
 
@@ -33,10 +34,20 @@ from mocapbench.basics.temporaries import sweep
 from mocapbench.basics.whole_files import atomic_write, write_text
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import words_of
+from mocapbench.benchmark.foreign_files import (
+    ForeignFileError,
+    Key,
+    decode_json,
+    encode_json,
+    read_bytes,
+    read_file,
+    read_json,
+)
+from mocapbench.benchmark.runs.check_document import read_check
 from mocapbench.benchmark.runs.fitting.fit import Fit
-from mocapbench.benchmark.runs.key_parts import KeyEntry, decode_keys, encode_keys
-from mocapbench.benchmark.runs.plan_document import is_plan
-from mocapbench.benchmark.runs.record import Record, RecordError
+from mocapbench.benchmark.runs.key_parts import KeyEntry, encode_keys, read_keys
+from mocapbench.benchmark.runs.plan_document import read_plan
+from mocapbench.benchmark.runs.record import Record
 
 __all__ = ["RunDirectory"]
 
@@ -48,14 +59,13 @@ _RECORDS, _PREDICTIONS = "records", "predictions"
 _LAYOUT = 2
 """Counts the layouts that developers have seen; a folder of another one is refused."""
 
-_CHECK_PARTS = {"reference", "summary", "passed", "findings"}
 _PATIENCE = 0.2
 """Seconds; whoever only looks whether the lock is held has it for a moment."""
-_UNREADABLE = (
-    *(OSError, ValueError, LookupError, TypeError, AttributeError),
-    *(EOFError, zipfile.BadZipFile),
+_ABOUT = msgspec.defstruct(
+    "_ABOUT",
+    [("key", Key), *((n, kind) for n, kind in get_type_hints(Fit).items() if n != "arrays")],
 )
-"""What reading a damaged file raises."""
+"""What predictions say of themselves."""
 
 
 class RunDirectory:
@@ -177,17 +187,7 @@ class RunDirectory:
 
     def load(self, key: str) -> Record | None:
         """Return the record called ``key``, or None if it is absent or damaged."""
-        path = self.record_path(key)
-        if not path.is_file():
-            return None
-        try:
-            record = Record.from_json(path.read_bytes())
-            if record.key != key:
-                raise RecordError(f"it holds the record {record.key}")
-        except (OSError, RecordError) as error:
-            self.damaged.append(f"{path}: {error}")
-            return None
-        return record
+        return self._read_if_whole(self.record_path(key), _read_record)
 
     def save(self, record: Record) -> None:
         """Write ``record`` whole or not at all."""
@@ -232,8 +232,9 @@ class RunDirectory:
             return None
         try:
             with np.load(path, allow_pickle=False) as arrays:
+                _require_stored(arrays.zip, path)
                 return read(arrays, key)
-        except _UNREADABLE as error:
+        except Exception as error:  # NumPy and zipfile do not say what a damaged file raises
             self.damaged.append(f"{path}: not a whole set of predictions: {error}")
             return None
 
@@ -245,7 +246,7 @@ class RunDirectory:
         """
         about = {**fit.costs, "key": key}
         with atomic_write(_make_room(self.fit_path(key))) as file:
-            arrays: dict[str, Any] = {**fit.arrays, "about": np.array(json.dumps(about))}
+            arrays: dict[str, Any] = {**fit.arrays, "about": np.array(encode_json(about).decode())}
             np.savez(file, **arrays)
 
     def fit_keys(self) -> set[str]:
@@ -259,7 +260,7 @@ class RunDirectory:
     def save_plan(self, plan: Mapping[str, Any]) -> None:
         """Write what the last run was asked to do; a check of an earlier one is dropped."""
         (self.path / _CHECK).unlink(missing_ok=True)
-        write_text(self.path / _PLAN, json.dumps(plan, indent=1))
+        write_text(self.path / _PLAN, _in_lines(plan))
 
     def load_plan(self) -> Mapping[str, Any]:
         """Return what the last run was asked to do.
@@ -269,50 +270,42 @@ class RunDirectory:
         UsageError
             If no run got so far, or the file is damaged.
         """
-        path, again = self.path / _PLAN, "run `mocapbench run` again"
-        try:
-            plan = json.loads(path.read_text(encoding="utf-8"))
-        except (OSError, ValueError) as error:
-            raise UsageError(f"{path} cannot be read ({error}); {again}") from error
-        if not is_plan(plan):
-            raise UsageError(f"{path} is not a plan; {again}")
-        return dict(plan)
+        return read_plan(self.path / _PLAN)
 
     def keep_keys(self, entries: Mapping[str, KeyEntry]) -> None:
         """Keep what the keys of ``entries`` cover, beside those of the records that are here."""
         written = self.record_keys()
         known = {key: entry for key, entry in self.load_keys().items() if key in written}
-        write_text(self.path / _KEYS, json.dumps(encode_keys({**known, **entries})))
+        write_text(self.path / _KEYS, encode_json(encode_keys({**known, **entries})).decode())
 
     def load_keys(self) -> dict[str, KeyEntry]:
         """Return what the keys of records cover, as far as it was kept."""
-        return self._read_json(_KEYS, "a list of keys", decode_keys) or {}
+        return self._read_if_whole(self.path / _KEYS, read_keys) or {}
 
     def save_check(self, check: Mapping[str, Any]) -> None:
         """Write what a regression check of the last run found."""
-        write_text(self.path / _CHECK, json.dumps(check, indent=1))
+        write_text(self.path / _CHECK, _in_lines(check))
 
     def load_check(self) -> Mapping[str, Any] | None:
         """Return what the last run's check found; None if it was not checked, or is damaged."""
-        return self._read_json(_CHECK, "a whole check", _decode_check)
+        return self._read_if_whole(self.path / _CHECK, read_check)
 
-    def _read_json(self, name: str, what: str, decode: Callable[[Any], T]) -> T | None:
-        """Return what a file says, which should be ``what``; None if it is absent or damaged."""
-        path = self.path / name
+    def _read_if_whole(self, path: Path, read: Callable[[Path], T]) -> T | None:
+        """Return what a file says; None if it is absent or damaged."""
         if not path.is_file():
             return None
         try:
-            return decode(json.loads(path.read_text(encoding="utf-8")))
-        except _UNREADABLE as error:
-            self.damaged.append(f"{path}: not {what}: {error}")
+            return read(path)
+        except ForeignFileError as error:
+            self.damaged.append(str(error))
             return None
 
 
 def _require_layout(path: Path) -> None:
     """Refuse a run directory that another version of this code has laid out."""
     try:
-        found = json.loads((path / _MARKER).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        found = read_json(path / _MARKER, dict[Key, int])
+    except ForeignFileError:
         found = None
     if found != {"format": _LAYOUT}:
         raise UsageError(
@@ -328,9 +321,32 @@ def _make_room(path: Path) -> Path:
     return path
 
 
+def _read_record(path: Path) -> Record:
+    """Return the record in a file, which must be named by its key."""
+    return read_file(path, "a record", "`mocapbench run` computes it again", _read_same_key)
+
+
+def _read_same_key(path: Path) -> Record:
+    record = Record.from_json(read_bytes(path))
+    if record.key != path.stem:
+        raise ForeignFileError(f"it holds the record {record.key}")
+    return record
+
+
+def _in_lines(document: Mapping[str, Any]) -> str:
+    """Return JSON that people can read and compare."""
+    return msgspec.json.format(encode_json(document), indent=1).decode()
+
+
+def _require_stored(archive: zipfile.ZipFile, path: Path) -> None:
+    """Refuse predictions that unpack to more than their file, which could be anything."""
+    if sum(member.file_size for member in archive.infolist()) > path.stat().st_size:
+        raise ValueError("it unpacks to more than it is")
+
+
 def _read_about(arrays: Mapping[str, Any], key: str) -> dict[str, Any]:
     """Return what predictions say of themselves, which must be those called ``key``."""
-    about: dict[str, Any] = json.loads(str(arrays["about"]))
+    about = msgspec.structs.asdict(decode_json(str(arrays["about"]), _ABOUT))
     if about.pop("key") != key:
         raise ValueError("it holds those of another job")
     return about
@@ -339,11 +355,4 @@ def _read_about(arrays: Mapping[str, Any], key: str) -> dict[str, Any]:
 def _read_whole(arrays: Mapping[str, Any], key: str) -> Fit:
     about = _read_about(arrays, key)
     contents = {name: array for name, array in arrays.items() if name != "about"}
-    return Fit(contents, **{**about, "warnings": tuple(about["warnings"])})
-
-
-def _decode_check(document: Any) -> Mapping[str, Any]:
-    check = dict(document)
-    if check.keys() != _CHECK_PARTS:
-        raise ValueError(f"it holds {sorted(check)}")
-    return check
+    return Fit(contents, **about)

@@ -9,11 +9,21 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from typing import Any
+from pathlib import Path
+from typing import Any, Literal
 
+from mocapbench.benchmark.foreign_files import (
+    ForeignFileError,
+    Index,
+    Key,
+    Name,
+    read_file,
+    read_json,
+    table_schema,
+)
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["DIGEST", "KeyEntry", "decode_keys", "encode_keys", "key_parts"]
+__all__ = ["DIGEST", "KeyEntry", "encode_keys", "key_parts", "read_keys"]
 
 KeyEntry = tuple[Address, Mapping[str, str]]
 """What is known of a key: the row that it belongs to, and its parts."""
@@ -22,6 +32,16 @@ DIGEST = "sha256:"
 """With this begins a part that is too long to be shown or kept."""
 _LONGEST = 40
 _FORMAT = 1
+_KEYS = table_schema(
+    {
+        "format": Literal[1],
+        "parts": list[tuple[Name, Name]],
+        "keys": dict[Key, tuple[Name, Index, Name, Index | None, Name, list[Index]]],
+    }
+)
+"""What the file holds: of each key an address, and the numbers of its parts."""
+_LARGEST = 256 * 2**20
+"""Bytes, of hundreds of thousands of keys."""
 _encode = json.JSONEncoder(sort_keys=True).encode
 
 
@@ -80,12 +100,25 @@ def encode_keys(entries: Mapping[str, KeyEntry]) -> dict[str, Any]:
     return {"format": _FORMAT, "parts": list(numbers), "keys": keys}
 
 
-def decode_keys(document: Any) -> dict[str, KeyEntry]:
-    """Return the parts of each key; whatever else the document is, it raises something."""
-    if document["format"] != _FORMAT:
-        raise ValueError(f"it has the format {document['format']}")
-    parts = [(str(name), str(text)) for name, text in document["parts"]]
-    return {
-        key: (Address(*address), dict(parts[number] for number in numbers))
-        for key, (*address, numbers) in document["keys"].items()
-    }
+def read_keys(path: Path) -> dict[str, KeyEntry]:
+    """Return the parts of each key that a file has.
+
+    Raises
+    ------
+    ForeignFileError
+        If it is damaged.
+    """
+    return read_file(path, "a list of keys", "`mocapbench run` writes it again", _read_whole)
+
+
+def _read_whole(path: Path) -> dict[str, KeyEntry]:
+    document: dict[str, Any] = read_json(path, _KEYS, _LARGEST)
+    parts = document["parts"]
+    try:
+        return {
+            key: (Address(*address), dict(parts[number] for number in numbers))
+            for key, (*address, numbers) in document["keys"].items()
+        }
+    except IndexError as error:
+        said = f"expected numbers below {len(parts)}, got one beyond"
+        raise ForeignFileError(said) from error

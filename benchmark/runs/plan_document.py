@@ -7,15 +7,48 @@ many ``workers`` it had or from which ``runs`` it was merged, and the user's own
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any, NamedTuple
 
+from mocapbench.benchmark.foreign_files import (
+    Count,
+    ForeignFileError,
+    Index,
+    Key,
+    KeyOrNone,
+    Name,
+    Text,
+    read_file,
+    read_json,
+    table_schema,
+)
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["PlannedJob", "is_plan", "plan_document", "planned_jobs", "planned_task_files"]
+__all__ = ["PlannedJob", "plan_document", "planned_jobs", "planned_task_files", "read_plan"]
 
-_KINDS = {"keys": list, "jobs": list, "provenance": dict}
+_ROW = {
+    "fit_key": Key,
+    "training_key": KeyOrNone,
+    "task": Name,
+    "version": Index,
+    "case": Name,
+    "fold": Index | None,
+    "label": Name,
+}
+_PLAN = table_schema(
+    {"keys": list[Key], "jobs": list[table_schema(_ROW)], "provenance": dict[Name, Text]},
+    optional={
+        "workers": Count,
+        "runs": list[dict[Name, Text]],
+        "task_files": list[TaskFile],
+        "drawn": Name,
+    },
+)
+"""What the file of a plan holds."""
+_LARGEST = 256 * 2**20
+"""Bytes, of hundreds of thousands of jobs."""
 
 
 class PlannedJob(NamedTuple):
@@ -52,25 +85,24 @@ def planned_jobs(plan: Mapping[str, Any]) -> list[PlannedJob]:
 
 
 def planned_task_files(plan: Mapping[str, Any]) -> tuple[TaskFile, ...]:
-    """Return the user's own tasks in TOML, with the recordings that they found.
+    """Return the user's own tasks in TOML, with the recordings that they found."""
+    return tuple(plan.get("task_files", ()))
+
+
+def read_plan(path: Path) -> dict[str, Any]:
+    """Return the plan in a file; its task files are those that `planned_task_files` returns.
 
     Raises
     ------
-    UsageError
-        If one of them is damaged.
+    ForeignFileError
+        If it is damaged.
     """
-    return tuple(map(TaskFile.from_plain, plan.get("task_files", ())))
+    return read_file(path, "a plan", "run `mocapbench run` again", _read_whole)
 
 
-def is_plan(document: Any) -> bool:
-    """Return whether a JSON document is a plan."""
-    if not isinstance(document, dict):
-        return False
-    if any(not isinstance(document.get(name), kind) for name, kind in _KINDS.items()):
-        return False
-    try:
-        planned_jobs(document)
-        merged_from = [dict(run) for run in document.get("runs", ())]
-        return document.get("workers", 1) > 0 and all(merged_from)
-    except (KeyError, TypeError, ValueError):
-        return False
+def _read_whole(path: Path) -> dict[str, Any]:
+    plan: dict[str, Any] = read_json(path, _PLAN, _LARGEST)
+    keys, jobs = len(plan["keys"]), len(plan["jobs"])
+    if keys != jobs:
+        raise ForeignFileError(f"expected a key for each job, got {keys} for {jobs}")
+    return plan

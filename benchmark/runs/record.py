@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
-import json
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
-from typing import Any, Self
+from typing import Annotated, Any, Literal, Self, get_type_hints
 
-import orjson
+import msgspec
+from msgspec import Meta
 
-from mocapbench.basics.words import encodable, printable
+from mocapbench.basics.words import printable
+from mocapbench.benchmark.foreign_files import (
+    Index,
+    Key,
+    Name,
+    Parameter,
+    Text,
+    decode_json,
+    encode_json,
+)
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["Record", "RecordError", "Status"]
+__all__ = ["Record", "Status"]
 
 FORMAT = 1
+_Cost = Annotated[float, Meta(ge=0.0)]
 
 
 class Status(StrEnum):
@@ -33,10 +42,6 @@ class Status(StrEnum):
     def broken(self) -> bool:
         """Whether something went wrong that the user should look at."""
         return self in {Status.FAILED, Status.TIMEOUT, Status.OUT_OF_MEMORY}
-
-
-class RecordError(ValueError):
-    """A file that does not hold a record."""
 
 
 @dataclass(frozen=True)
@@ -76,29 +81,29 @@ class Record:
         Recordings that the job lacked, and the command that gets them, up to their names.
     """
 
-    key: str
-    fit_key: str
+    key: Key
+    fit_key: Key
     address: Address
-    seed: int
-    model: str
+    seed: Annotated[int, Meta(ge=0)]
+    model: Name
     parameters: Mapping[str, Any]
     status: Status
-    message: str = ""
-    traceback: str = ""
+    message: Text = ""
+    traceback: Text = ""
     scores: Mapping[str, float] = field(default_factory=dict)
     parts: Mapping[str, Mapping[str, list[float]]] = field(default_factory=dict)
-    left_out: Mapping[str, int] = field(default_factory=dict)
-    fit_seconds: float | None = None
-    predict_seconds: float | None = None
-    peak_memory_mb: float | None = None
-    iterations: int | None = None
+    left_out: Mapping[Name, Index] = field(default_factory=dict)
+    fit_seconds: _Cost | None = None
+    predict_seconds: _Cost | None = None
+    peak_memory_mb: _Cost | None = None
+    iterations: Index | None = None
     converged: bool | None = None
-    engine: str = ""
-    warnings: tuple[str, ...] = ()
-    provenance: Mapping[str, str] = field(default_factory=dict)
-    problem: str = ""
-    missing: tuple[str, ...] = ()
-    fetch: str = ""
+    engine: Text = ""
+    warnings: tuple[Text, ...] = ()
+    provenance: Mapping[Name, Text] = field(default_factory=dict)
+    problem: Name = ""
+    missing: tuple[Name, ...] = ()
+    fetch: Text = ""
 
     def __post_init__(self) -> None:
         for name in ("message", "traceback", "engine", "fetch"):
@@ -107,13 +112,10 @@ class Record:
             object.__setattr__(self, name, tuple(map(_plain, getattr(self, name))))
 
     def to_json(self) -> str:
-        """Return the record as strict JSON; NaN becomes null, the address five entries."""
+        """Return the record as JSON; NaN becomes null, the address five entries."""
         document = {item.name: getattr(self, item.name) for item in fields(self)}
         document |= {"format": FORMAT, **document.pop("address")._asdict()}
-        try:
-            return orjson.dumps(document).decode()
-        except TypeError:  # integers of more than 64 bits, surrogates, keys that are not text
-            return json.dumps(_without_nan(document))
+        return encode_json(document).decode()
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Self:
@@ -121,56 +123,33 @@ class Record:
 
         Raises
         ------
-        RecordError
+        ForeignFileError
             If the text is not a whole record of this format.
         """
-        try:
-            document = _parse_json(text)
-            if document.pop("format") != FORMAT:
-                raise RecordError("the record has another format")
-            document["status"] = Status(document["status"])
-            document |= {name: tuple(document[name]) for name in ("warnings", "missing")}
-            document["scores"] = {
-                name: math.nan if value is None else float(value)
-                for name, value in document["scores"].items()
-            }
-            missing = _ENTRIES ^ set(document)
-            if missing:
-                raise RecordError(f"fields missing or unknown: {sorted(missing)}")
-            address = Address(**{name: document.pop(name) for name in Address._fields})
-            return cls(address=address, **document)
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise RecordError(f"not a whole record: {error}") from error
+        document = msgspec.structs.asdict(decode_json(text, _Document))
+        del document["format"]
+        address = Address(**{name: document.pop(name) for name in Address._fields})
+        scores = {name: math.nan if v is None else v for name, v in document["scores"].items()}
+        return cls(address=address, **{**document, "scores": scores})
 
 
-_ENTRIES = {*Address._fields, *(item.name for item in fields(Record))} - {"address"}
-
-
-_LONG = re.compile(rb"(?<![0-9.])[0-9]{19}")
-"""An integer that may need more than 64 bits; not the digits behind a point."""
-
-
-def _parse_json(text: str | bytes) -> Any:
-    """Return what a JSON text says; integers of any length stay whole, which orjson rounds."""
-    data = text.encode() if isinstance(text, str) else text
-    return json.loads(data) if _LONG.search(data) else orjson.loads(data)
+_ENTRIES = {
+    "format": Literal[1],
+    **{"task": Name, "version": Index, "case": Name, "fold": Index | None, "label": Name},
+    **get_type_hints(Record, include_extras=True),
+    "parameters": dict[Name, Parameter],
+    "scores": dict[Name, float | None],
+    "parts": dict[Name, dict[Name, list[float | None]]],
+}
+"""What a file of a record holds: null stands for NaN, and the address is five entries."""
+_Document = msgspec.defstruct(
+    "Record",
+    [(name, schema) for name, schema in _ENTRIES.items() if name != "address"],
+    forbid_unknown_fields=True,
+)
 
 
 def _plain(text: str) -> str:
     """Return ``text`` without what no file, no terminal and no spreadsheet would show."""
     lines = text.replace("\r\n", "\n").replace("\r", "\n")
     return printable(lines)
-
-
-def _without_nan(value: Any) -> Any:
-    match value:
-        case dict():
-            return {encodable(str(key)): _without_nan(item) for key, item in value.items()}
-        case list() | tuple():
-            return [_without_nan(item) for item in value]
-        case str():
-            return encodable(value)
-        case float() if not math.isfinite(value):
-            return None
-        case _:
-            return value

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Self
 
-from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.foreign_files import Name, Text
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.datasets import named_folders
 
@@ -33,42 +32,18 @@ class TaskFile:
         The needs of models that the recordings meet, so that these models can take part.
     """
 
-    file: str
-    text: str
-    folder: str
-    tests: tuple[str, ...]
-    training: tuple[str, ...]
+    file: Name
+    text: Text
+    folder: Name
+    tests: tuple[Name, ...]
+    training: tuple[Name, ...]
     complete: bool
-    meets: tuple[str, ...]
+    meets: tuple[Name, ...]
 
     @property
     def document(self) -> Document:
         """The TOML."""
         return Document(self.file, self.text)
-
-    def to_plain(self) -> dict[str, Any]:
-        """Return what JSON can hold of it."""
-        return asdict(self)
-
-    @classmethod
-    def from_plain(cls, plain: Mapping[str, Any]) -> Self:
-        """Return what `to_plain` turned into ``plain``.
-
-        Raises
-        ------
-        UsageError
-            If it is something else.
-        """
-        try:
-            file, text, folder = (str(plain[name]) for name in ("file", "text", "folder"))
-            tests, training = (tuple(map(str, plain[name])) for name in ("tests", "training"))
-            complete, meets = bool(plain["complete"]), tuple(map(str, plain["meets"]))
-            return cls(file, text, folder, tests, training, complete, meets)
-        except (KeyError, TypeError) as error:
-            raise UsageError(
-                "the plan of the run holds a damaged task file; run `mocapbench run` with "
-                "--task-file and --recordings again"
-            ) from error
 
 
 def with_folders(data_dir: Path | None, files: Iterable[TaskFile]) -> Path | None:

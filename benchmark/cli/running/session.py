@@ -75,7 +75,7 @@ class Session:
 
     def _plan_writer(self) -> Callable[..., None]:
         """Return a function that writes the plan, and what else is to be said of it."""
-        task_files = [file.to_plain() for file in self.config.task_files]
+        task_files = [*self.config.task_files]
         same = {"workers": self.backend.n_workers, "task_files": task_files}
 
         def save_plan(**about: Any) -> None:

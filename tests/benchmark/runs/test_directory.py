@@ -204,13 +204,10 @@ def test_predictions_under_another_name_are_not_trusted(store):
 def test_a_damaged_plan_says_what_to_do(store):
     with pytest.raises(UsageError, match="run `mocapbench run` again"):
         store.load_plan()
-    for foreign in ("{}", "5", "[]", '{"keys": [], "provenance": {}}'):
+    for foreign in ("{}", "5", "[]", '{"keys": [], "provenance": {}}', "{"):
         (store.path / "plan.json").write_text(foreign)
-        with pytest.raises(UsageError, match="is not a plan; run `mocapbench run` again"):
+        with pytest.raises(UsageError, match=r"expected a plan; .* run` again"):
             store.load_plan()
-    (store.path / "plan.json").write_text("{")
-    with pytest.raises(UsageError, match="cannot be read"):
-        store.load_plan()
 
 
 def test_damaged_keys_are_reported_and_written_again(store):
@@ -218,7 +215,7 @@ def test_damaged_keys_are_reported_and_written_again(store):
     path = store.path / "keys.json"
     path.write_text(path.read_text()[:-5])
     assert store.load_keys() == {}
-    assert "keys.json: not a list of keys" in store.damaged[0]
+    assert "keys.json: expected a list of keys" in store.damaged[0]
     store.keep_keys({"k": (HERE, {"seed": "0"})})
     assert store.load_keys() == {"k": (HERE, {"seed": "0"})}
 
@@ -234,7 +231,7 @@ def test_foreign_keys_are_reported(store, document):
     (store.path / "keys.json").write_text(json.dumps(document))
     store.damaged.clear()
     assert store.load_keys() == {}
-    assert "keys.json: not a list of keys" in store.damaged[0]
+    assert "keys.json: expected a list of keys" in store.damaged[0]
 
 
 def test_parts_of_keys_are_kept_as_long_as_their_record(store):
@@ -261,7 +258,7 @@ def test_what_a_check_found_is_kept_until_the_next_plan(store):
 def test_a_damaged_check_is_reported_and_not_trusted(store, text):
     (store.path / "check.json").write_text(text)
     assert store.load_check() is None
-    assert "check.json: not a whole check" in store.damaged[0]
+    assert "check.json: expected a check" in store.damaged[0]
 
 
 DIE_WHILE_WRITING = (

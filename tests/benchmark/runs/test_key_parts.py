@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.archives import archive_at
-from mocapbench.benchmark.runs.key_parts import decode_keys, encode_keys, key_parts
+from mocapbench.benchmark.foreign_files import ForeignFileError, encode_json
+from mocapbench.benchmark.runs.key_parts import encode_keys, key_parts, read_keys
 from mocapbench.benchmark.runs.keys import key_of
 from mocapbench.benchmark.runs.plan import plan
 from mocapbench.benchmark.runs.request import Request
@@ -81,9 +82,31 @@ ADDRESS = st.builds(Address, TEXT, st.integers(1, 9), TEXT, st.integers(0, 9), T
 ENTRY = st.tuples(ADDRESS, st.dictionaries(TEXT, TEXT, max_size=4))
 
 
-@given(st.dictionaries(TEXT, ENTRY, max_size=5))
-def test_the_parts_of_keys_survive_json(entries):
-    assert decode_keys(json.loads(json.dumps(encode_keys(entries)))) == entries
+@given(entries=st.dictionaries(st.text("0123abc", min_size=1), ENTRY, max_size=5))
+def test_the_parts_of_keys_survive_a_file(tmp_path_factory, entries):
+    path = tmp_path_factory.getbasetemp() / "keys.json"
+    path.write_bytes(encode_json(encode_keys(entries)))
+    assert read_keys(path) == entries
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"parts": []}, "expected numbers below 0, got one beyond"),
+        ({"parts": [["a"]]}, r"at parts\[0\], expected a list of length 2"),
+        ({"keys": {"k": ["t", 1, "c", 0, "l"]}}, r"at keys\[...\], expected a list of length 6"),
+        ({"keys": {"k": ["t", 1, "c", 0, "l", [-1]]}}, "expected a whole number >= 0"),
+        ({"keys": {"../k": ["t", 1, "c", 0, "l", []]}}, "at key in keys, expected text of letters"),
+        ({"format": 2}, "at format"),
+    ],
+    ids=str,
+)
+def test_what_is_no_list_of_keys_is_told_with_its_place(tmp_path, change, said):
+    path = tmp_path / "keys.json"
+    here = Address("t", 1, "c", 0, "label")
+    path.write_bytes(encode_json({**encode_keys({"k": (here, {"seed": "0"})}), **change}))
+    with pytest.raises(ForeignFileError, match=f"keys.json: expected a list of keys; .*{said}"):
+        read_keys(path)
 
 
 def test_a_part_stands_once_however_many_keys_have_it():

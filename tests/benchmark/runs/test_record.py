@@ -7,15 +7,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.runs.record import Record, RecordError, Status
+from mocapbench.benchmark.foreign_files import ForeignFileError
+from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 
 TEXT = st.text(max_size=20)
 FLOATS = st.floats(allow_infinity=False)
+KEYS = st.text("0123456789abcdef", min_size=64, max_size=64)
 RECORDS = st.builds(
     Record,
-    key=st.text("0123456789abcdef", min_size=64, max_size=64),
-    fit_key=TEXT,
+    key=KEYS,
+    fit_key=KEYS,
     address=st.builds(Address, TEXT, st.integers(1, 9), TEXT, st.integers(0, 9), TEXT),
     seed=st.integers(0, 9),
     model=TEXT,
@@ -64,17 +66,54 @@ def test_the_text_of_a_message_is_kept(record, text, kept):
 def test_a_truncated_record_is_refused(record, data):
     text = record.to_json()
     cut = data.draw(st.integers(0, len(text) - 1))
-    with pytest.raises(RecordError, match="not a whole record"):
+    with pytest.raises(ForeignFileError):
         Record.from_json(text[:cut])
 
 
 @given(st.recursive(st.none() | st.booleans() | FLOATS | TEXT, st.lists))
 def test_foreign_json_is_refused(document):
-    with pytest.raises(RecordError):
+    with pytest.raises(ForeignFileError):
         Record.from_json(json.dumps(document))
 
 
-def test_a_score_that_is_no_number_is_refused(record):
+DEEP = json.loads("[" * 20 + "]" * 20)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"scores": {"mse": "abc"}}, r"at scores\[...\], expected a number or null, got text"),
+        ({"fold": -1}, "at fold, expected a whole number >= 0"),
+        ({"fold": 10**30}, "at fold, expected a whole number"),
+        ({"fold": True}, "at fold, expected a whole number or null, got true or false"),
+        ({"message": 3}, "at message, expected text, got a whole number"),
+        ({"message": "a" * 1_000_001}, "at message, expected text of length <= 1000000"),
+        ({"label": "a" * 10_001}, "at label, expected text of length <= 10000"),
+        ({"fit_key": "../../.ssh/id"}, "at fit_key, expected text of letters"),
+        ({"status": "fine"}, "at status, invalid enum value 'fine'"),
+        ({"parameters": {"rank": DEEP}}, r"at parameters\[...\]"),
+        ({"parts": {"mse": [1.0]}}, r"at parts\[...\], expected a table, got a list"),
+        ({"warnings": "careful"}, "at warnings, expected a list, got text"),
+        ({"other": 1}, "expected no entry other, got one"),
+        ({"format": 2}, "at format, invalid enum value 2"),
+    ],
+    ids=lambda value: str(value)[:40],
+)
+def test_an_entry_of_another_kind_is_refused_with_its_place(record, change, said):
+    document = {**json.loads(record.to_json()), **change}
+    with pytest.raises(ForeignFileError, match=said):
+        Record.from_json(json.dumps(document))
+
+
+@pytest.mark.parametrize("entry", ["key", "scores", "fetch"])
+def test_a_record_without_an_entry_is_refused(record, entry):
     document = json.loads(record.to_json())
-    with pytest.raises(RecordError):
-        Record.from_json(json.dumps({**document, "scores": {"mse": "abc"}}))
+    del document[entry]
+    with pytest.raises(ForeignFileError, match=f"expected the entry {entry}, got none"):
+        Record.from_json(json.dumps(document))
+
+
+@given(st.integers(), st.floats(allow_nan=False, allow_infinity=False))
+def test_numbers_of_any_size_stay_what_they_are(whole, number):
+    record = Record("k", "f", Address("t", 1, "c"), 0, "m", {"a": whole, "b": [number]}, Status.OK)
+    assert Record.from_json(record.to_json()).parameters == record.parameters

@@ -1,16 +1,16 @@
 """What the task of a file is, and the problems that it poses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from own_files import write_csv
 
 from mocapbench.baselines.interpolation import LinearImputer
 from mocapbench.benchmark.archives import archive_at
-from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.keys import fit_contents
 from mocapbench.benchmark.runs.request import entrants
 from mocapbench.benchmark.task_files.building import build_task
-from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.task_files.uniting import united_task_files
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import PROFILES
@@ -164,17 +164,8 @@ def test_keys_cover_the_protocol_and_no_prose(check):
     assert all(other != first for other in others)
 
 
-def test_a_task_file_returns_from_what_json_can_hold(check):
-    file = check(TEXT.format("others"))
-    assert TaskFile.from_plain(file.to_plain()) == file
-    for name in file.to_plain():
-        damaged = {each: value for each, value in file.to_plain().items() if each != name}
-        with pytest.raises(UsageError, match="damaged task file; run `mocapbench run` with"):
-            TaskFile.from_plain(damaged)
-
-
 def test_task_files_of_merged_runs_have_the_recordings_of_all(check):
     file = check(TEXT.format("none"))
-    one, two = (TaskFile(**{**file.to_plain(), "tests": (name,)}) for name in file.tests)
+    one, two = (replace(file, tests=(name,)) for name in file.tests)
     (united,) = united_task_files([one, two, one])
     assert united.tests == file.tests
