@@ -8,10 +8,12 @@ ends in a `ForeignFileError`, which says where, what was expected, what was got,
 
 from __future__ import annotations
 
+import csv
 import re
 import stat
+import sys
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, NotRequired, TypedDict, TypeVar
 
@@ -20,10 +22,11 @@ from msgspec import Meta
 
 from mocapbench.basics.words import encodable
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import words_of
+from mocapbench.benchmark.messages import shorten_text
 
 __all__ = [
     "Count",
+    "Finite",
     "ForeignFileError",
     "Index",
     "Key",
@@ -32,6 +35,7 @@ __all__ = [
     "Parameter",
     "Text",
     "decode_json",
+    "decode_rows",
     "decode_toml",
     "encode_json",
     "fit_schema",
@@ -49,12 +53,14 @@ Name = Annotated[str, Meta(max_length=10_000)]
 """Of a task, a case, an entrant, a file or a metric."""
 Text = Annotated[str, Meta(max_length=1_000_000)]
 """A message, a traceback, or what a task file says."""
-Key = Annotated[str, Meta(pattern=r"\A\w[\w -]{0,99}\Z")]
+_FILE_NAME = r"[!-\-0-~][ -.0-~]{0,99}"  # of ASCII, without a slash, and no dot at its beginning
+Key = Annotated[str, Meta(pattern=rf"\A{_FILE_NAME}\Z")]
 """What names a file of a run directory; never a path that leads out of it."""
 Index = Annotated[int, Meta(ge=0, le=10_000_000)]
 Count = Annotated[int, Meta(ge=1, le=10_000_000)]
-KeyOrNone = Annotated[str, Meta(pattern=r"\A(\w[\w -]{0,99})?\Z")]
+KeyOrNone = Annotated[str, Meta(pattern=rf"\A({_FILE_NAME})?\Z")]
 """A key, or an empty text where there is none."""
+Finite = Annotated[float, Meta(ge=-sys.float_info.max, le=sys.float_info.max)]
 _Scalar = None | bool | int | float | Name
 _Nested = _Scalar | list[_Scalar] | dict[Name, _Scalar]
 Parameter = _Scalar | list[_Nested] | dict[Name, _Nested]
@@ -62,6 +68,8 @@ Parameter = _Scalar | list[_Nested] | dict[Name, _Nested]
 
 _LARGEST = 64 * 2**20
 """Bytes of a file, unless more are expected."""
+_SHOWN = 200
+"""Characters of a row in a message."""
 _PLAIN = {
     "int": "a whole number",
     "float": "a number",
@@ -160,9 +168,7 @@ def read_bytes(path: Path, most: int = _LARGEST) -> bytes:
         with path.open("rb") as file:
             content = file.read(most + 1) if status.st_size <= most else b""
     except OSError as error:
-        raise ForeignFileError(
-            f"expected a file that can be read, got: {words_of(error)}"
-        ) from error
+        raise ForeignFileError(f"it cannot be read ({error.strerror})") from error
     size = max(status.st_size, len(content))
     if size > most:
         raise ForeignFileError(f"expected at most {most >> 20} MiB, got {size >> 20} MiB")
@@ -218,7 +224,35 @@ def _escape_texts(value: Any) -> Any:
 
 def decode_toml(text: str, schema: type[T] | Any) -> T:
     """Return what a TOML text says; see `decode_json`."""
-    return _tell_schema(lambda: msgspec.convert(tomllib.loads(text), schema))
+    return _tell_schema(lambda: msgspec.convert(_parse_toml(text), schema))
+
+
+def _parse_toml(text: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        raise
+    except ValueError as error:  # which Python says of its own limit
+        raise ForeignFileError("a number of too many digits") from error
+
+
+def decode_rows(lines: Iterable[str]) -> list[dict[str, str]]:
+    """Return the rows of a CSV text with a head: texts, which are yet to fit a schema.
+
+    Raises
+    ------
+    ForeignFileError
+        If a row has more or fewer cells than the head, or is no CSV.
+    """
+    try:
+        rows = list(csv.DictReader(lines, strict=True))
+    except csv.Error as error:
+        raise ForeignFileError(f"expected CSV, got: {error}") from error
+    for row in rows:
+        if None in row or None in row.values():
+            got = shorten_text(str([*row.values()]), _SHOWN)
+            raise ForeignFileError(f"expected as many cells in a row as in the head, got {got}")
+    return rows
 
 
 def fit_schema(value: Any, schema: type[T] | Any, *, strict: bool = True) -> T:
@@ -231,14 +265,16 @@ def fit_schema(value: Any, schema: type[T] | Any, *, strict: bool = True) -> T:
     strict : bool
         Whether a text is no number: in the cells of CSV, all is text.
     """
-    return _tell_schema(lambda: msgspec.convert(value, schema, strict=strict))
+    return _tell_schema(lambda: msgspec.convert(value, schema, strict=strict, str_keys=not strict))
 
 
 def _tell_schema(decode: Callable[[], T]) -> T:
     try:
         return decode()
     except RecursionError as error:
-        raise ForeignFileError("expected a few lists in one another, got too many") from error
+        raise ForeignFileError("too many lists in one another") from error
+    except ForeignFileError:
+        raise
     except ValueError as error:
         raise ForeignFileError(_in_words(str(error))) from error
 
@@ -252,7 +288,7 @@ def _in_words(message: str) -> str:
         what = f"expected the entry {missing[1]}, got none"
     elif unknown:
         what = f"expected no entry {unknown[1]}, got one"
-    words = _PATTERN.sub("of letters, digits, blanks, - and _", _TYPES.sub(_name_types, what))
+    words = _PATTERN.sub("that names a file", _TYPES.sub(_name_types, what))
     place = f"at {re.sub(r'`|[$][.]?', '', where)}, " if where else ""
     return f"{place}{words[:1].lower()}{words[1:]}"
 

@@ -10,16 +10,28 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import takewhile
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+from msgspec import Meta
 
 from mocapbench.basics.temporaries import sweep
 from mocapbench.basics.whole_files import write_together
 from mocapbench.basics.words import encodable, printable
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.foreign_files import (
+    Finite,
+    ForeignFileError,
+    Index,
+    Name,
+    decode_rows,
+    fit_schema,
+    read_file,
+    read_text,
+    table_schema,
+)
 from mocapbench.benchmark.gate.reference import (
     COLUMNS,
     ENVIRONMENT,
@@ -39,6 +51,14 @@ __all__ = ["read_reference", "write_reference"]
 FORMAT = "mocapbench baseline"
 """The first line of a file, from the time when reference values were called a baseline."""
 _FOLD = "fold "
+_Values = Annotated[dict[Index, Finite], Meta(min_length=1)]
+"""One or more finite values, by fold."""
+_ROW = table_schema(
+    {
+        **{"task": Name, "version": Index, "case": Name, "label": Name, "metric": Name},
+        "folds": _Values,
+    }
+)
 
 
 def read_reference(path: Path) -> Reference | None:
@@ -80,41 +100,44 @@ def _distinct(rows: Iterable[tuple[Series, Folds]]) -> dict[Series, Folds]:
     values: dict[Series, Folds] = {}
     for series, folds in rows:
         if series in values:
-            raise UsageError(f"--reference: {series} has two rows; keep one")
+            raise ForeignFileError(f"{series} has two rows; keep one")
         values[series] = folds
     return values
 
 
 def _parse(path: Path) -> Reference:
-    try:
-        *lines, rest = path.read_text(encoding="utf-8").split("\n")
-        head = [line[2:] for line in takewhile(lambda line: line.startswith("# "), lines)]
-        if head[:1] != [FORMAT]:
-            raise ValueError(f"its first line is not '# {FORMAT}'")
-        if rest:
-            raise ValueError("its last line is cut short")
-        values = _distinct(map(_row, csv.DictReader(lines[len(head) :], strict=True)))
-        return Reference(values, dict(line.split(": ", 1) for line in head[1:]))
-    except (OSError, ValueError, KeyError, TypeError, csv.Error) as error:
-        raise UsageError(
-            f"--reference: {path} holds no reference values ({error}); mend it, or delete it and "
-            "write it again with --update"
-        ) from error
+    advice = "mend it, or delete it and write it again with --update"
+    return read_file(path, "reference values", advice, _read_values)
 
 
-def _row(row: Mapping[Any, Any]) -> tuple[Series, Folds]:
-    if None in row or None in row.values():
-        raise ValueError(f"expected as many cells in a row as in the head, got {[*row.values()]}")
-    task, version, case, label, metric = (unguard_text(row[name]) for name in COLUMNS)
-    address = Address(task, int(version), case, label=label)
-    values = {
-        int(name.removeprefix(_FOLD)): float(text)
-        for name, text in row.items()
-        if name.startswith(_FOLD) and text
+def _read_values(path: Path) -> Reference:
+    *lines, rest = read_text(path).split("\n")
+    head = [line[2:] for line in takewhile(lambda line: line.startswith("# "), lines)]
+    if head[:1] != [FORMAT]:
+        raise ForeignFileError(f"its first line is not '# {FORMAT}'")
+    if rest:
+        raise ForeignFileError("its last line is cut short")
+    facts = [line.partition(": ") for line in head[1:]]
+    if not all(colon for _, colon, _ in facts):
+        raise ForeignFileError("expected lines such as '# seed: 0' at its beginning")
+    cells = map(_nest_folds, decode_rows(lines[len(head) :]))
+    rows: list[dict[str, Any]] = fit_schema([*cells], list[_ROW], strict=False)
+    return Reference(_distinct(map(_row, rows)), {name: fact for name, _, fact in facts})
+
+
+def _nest_folds(row: Mapping[str, str]) -> dict[str, Any]:
+    """Return a row with its values in one entry, by fold."""
+    folds = {
+        name.removeprefix(_FOLD): cell
+        for name, cell in row.items()
+        if name.startswith(_FOLD) and cell
     }
-    if not (values and all(map(math.isfinite, values.values()))):
-        raise ValueError(f"expected finite values of {metric}, got {values}")
-    return Series(address, metric), values
+    return {**{name: unguard_text(row[name]) for name in COLUMNS if name in row}, "folds": folds}
+
+
+def _row(row: Mapping[str, Any]) -> tuple[Series, Folds]:
+    address = Address(row["task"], row["version"], row["case"], label=row["label"])
+    return Series(address, row["metric"]), row["folds"]
 
 
 def write_reference(path: Path, reference: Reference) -> None:

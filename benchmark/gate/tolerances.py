@@ -15,14 +15,15 @@
 
 from __future__ import annotations
 
-import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-from mocapbench.benchmark.errors import UnknownNameError, UsageError
+from msgspec import Meta
+
+from mocapbench.benchmark.errors import UnknownNameError
+from mocapbench.benchmark.foreign_files import fit_schema, read_file, read_toml, table_schema
 from mocapbench.benchmark.gate.environment import Environment
 from mocapbench.benchmark.gate.rule import DEFAULT_TOLERANCES, Tolerance
 from mocapbench.benchmark.registry import METRICS
@@ -31,6 +32,7 @@ __all__ = ["read_tolerances"]
 
 _METRICS = "metrics"
 _NAMES = tuple(parameter.name for parameter in fields(Tolerance))
+_OPTIONS = dict.fromkeys(_NAMES, Annotated[float, Meta(ge=0.0, le=1e300)])
 
 
 def read_tolerances(environment: Environment, path: Path | None) -> Mapping[str, Tolerance]:
@@ -41,49 +43,32 @@ def read_tolerances(environment: Environment, path: Path | None) -> Mapping[str,
     UsageError
         If the file cannot be read, or holds something else.
     """
-    tables = _read(path) if path else {}
-    _check_names("", tables, tuple(Environment))
-    read = {level: _tolerances(level, tables.get(level, {})) for level in Environment}
-    return read[environment]
+    tables = read_file(path, "tolerances", "mend it", _read_tables) if path else {}
+    return _tolerances(environment, tables.get(environment, {}))
 
 
-def _read(path: Path) -> Mapping[str, Any]:
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise UsageError(f"--tolerances: {path} cannot be read as TOML: {error}") from error
+def _read_tables(path: Path) -> Mapping[str, Any]:
+    """Return the tables of a file, which have no entry but known ones."""
+    document: dict[str, Any] = read_toml(path, dict[str, Any])
+    own = table_schema({}, dict.fromkeys(METRICS.names(), table_schema({}, _OPTIONS)))
+    level = table_schema({}, {**_OPTIONS, _METRICS: own})
+    tables: Mapping[str, Any] = fit_schema(
+        document, table_schema({}, dict.fromkeys(Environment, level))
+    )
+    _check_names("", document, tuple(Environment))
+    for environment, table in document.items():
+        _check_names(environment, table, (*_NAMES, _METRICS))
+        for name, options in table.get(_METRICS, {}).items():
+            METRICS.get(name)
+            _check_names(f"{environment}.{_METRICS}.{name}", options, _NAMES)
+    return tables
 
 
-def _tolerances(environment: Environment, table: object) -> dict[str, Tolerance]:
-    options = _table(environment, table)
-    own = _table(f"{environment}.{_METRICS}", options.get(_METRICS, {}))
-    _check_names(environment, options, (*_NAMES, _METRICS))
-    general = {name: value for name, value in options.items() if name != _METRICS}
-    default = _change_tolerance(DEFAULT_TOLERANCES[environment], environment, general)
-    for name in own:
-        METRICS.get(name)
-    return {
-        name: _change_tolerance(default, f"{environment}.{_METRICS}.{name}", own.get(name, {}))
-        for name in METRICS.names()
-    }
-
-
-def _change_tolerance(tolerance: Tolerance, where: str, table: object) -> Tolerance:
-    options = _table(where, table)
-    _check_names(where, options, _NAMES)
-    for name, value in options.items():
-        number = isinstance(value, int | float) and not isinstance(value, bool)
-        if not (number and math.isfinite(value) and value >= 0):
-            raise UsageError(
-                f"--tolerances: {where}.{name}: expected a number from 0, got {value!r}"
-            )
-    return replace(tolerance, **options)
-
-
-def _table(where: str, value: object) -> Mapping[str, Any]:
-    if not isinstance(value, dict):
-        raise UsageError(f"--tolerances: {where}: expected a table, got {value!r}")
-    return value
+def _tolerances(environment: Environment, table: Mapping[str, Any]) -> dict[str, Tolerance]:
+    own = table.get(_METRICS, {})
+    general = {name: value for name, value in table.items() if name != _METRICS}
+    default = replace(DEFAULT_TOLERANCES[environment], **general)
+    return {name: replace(default, **own.get(name, {})) for name in METRICS.names()}
 
 
 def _check_names(where: str, options: Mapping[str, Any], known: tuple[str, ...]) -> None:

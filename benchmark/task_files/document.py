@@ -2,18 +2,32 @@
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Callable, Collection, Mapping
+import re
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cached_property
 from typing import Any, TypeVar
 
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.foreign_files import ForeignFileError, decode_toml
+from mocapbench.benchmark.messages import shorten_text
 
 __all__ = ["Document", "TaskFileError", "line_of"]
 
 T = TypeVar("T")
+
+_SHOWN = 200
+"""Characters of a value in a message."""
+_TOKEN = re.compile(
+    r"""
+    "{3} (?: \\. | [^\\] )*? "{3,5} | '{3} .*? '{3,5}            # texts of several lines
+    | " (?: \\. | [^"\\\n] )* " | ' [^'\n]* ' | \# [^\n]*       # texts and comments
+    | [\[\]{}\n]
+    """,
+    re.VERBOSE | re.DOTALL,
+)
+"""What decides where an entry of TOML ends."""
 
 
 class TaskFileError(UsageError):
@@ -45,12 +59,13 @@ class Document:
             If it is no TOML; the message has the line.
         """
         try:
-            return tomllib.loads(self.text)
-        except tomllib.TOMLDecodeError as error:
+            document: dict[str, Any] = decode_toml(self.text, dict[str, Any])
+        except ForeignFileError as error:
             raise TaskFileError(
                 f"{self.file}: expected TOML, got: {error}; write lines such as folds = 5, "
                 'texts in quotes, and lists such as ["hip.*", "knee.*"]'
             ) from error
+        return document
 
     def error(self, key: str, expected: str, got: object, advice: str) -> TaskFileError:
         """Return the error of one key, such as ``hide.runs``, with the line on which it stands."""
@@ -90,7 +105,8 @@ class Document:
             return default
         if not fits(value):
             name = key.rpartition(".")[2]
-            raise self.error(key, expected, repr(value), f"write for example {name} = {example}")
+            got = shorten_text(repr(value), _SHOWN)
+            raise self.error(key, expected, got, f"write for example {name} = {example}")
         return value  # type: ignore[no-any-return]  # as ``fits`` says
 
     def require_known(self, table: str, known: Collection[str]) -> None:
@@ -113,8 +129,7 @@ class Document:
 def line_of(text: str, key: str) -> int | None:
     r"""Return the line on which a key of a TOML document stands, or a table above it; else None.
 
-    TOML is read from its beginning, one line longer at a time: a key stands on the first line after
-    the last beginning without it. So it does not matter how the file is written.
+    That of an entry is the line on which it begins. Every part of the document is read once.
 
     Parameters
     ----------
@@ -131,17 +146,27 @@ def line_of(text: str, key: str) -> int | None:
     >>> line_of('files = [\n  "a.csv",\n]', "files")
     1
     """
-    lines, before = text.splitlines(), 0
-    for end in range(1, len(lines) + 1):
-        try:
-            beginning = Document("", "\n".join(lines[:end]) + "\n").values
-        except TaskFileError:  # in the middle of a value of several lines
-            continue
-        if _has(beginning, key):
-            return before + 1
-        before = end
+    header = ""
+    for line, entry in _split_entries(text):
+        header, beside = (entry, "") if entry.lstrip().startswith("[") else (header, entry)
+        if _has(Document("", f"{header}\n{beside}\n").values, key):
+            return line
     above = key.rpartition(".")[0]
     return line_of(text, above) if above else None
+
+
+def _split_entries(text: str) -> Iterator[tuple[int, str]]:
+    """Yield the entries, headers of tables, comments and empty lines of TOML, with their lines.
+
+    An entry ends with the line on which no bracket is open.
+    """
+    start, first, line, depth = 0, 1, 1, 0
+    for token in _TOKEN.finditer(f"{text}\n"):
+        line += token[0].count("\n")
+        depth += (token[0] in "[{") - (token[0] in "]}")
+        if token[0] == "\n" and depth == 0:
+            yield first, text[start : token.start()]
+            start, first = token.end(), line
 
 
 def _has(values: Mapping[str, Any], key: str) -> bool:

@@ -138,7 +138,7 @@ def _read_runs(document: Document, channels: tuple[str, ...]) -> Hidden:
     lengths = _numbers(
         document, "hide.runs.seconds", is_positive, "a length in seconds, or a list", "[0.1, 0.5]"
     )
-    count = document.read("hide.runs.count", 1, is_count, "a whole number from 1", "3")
+    count = document.read("hide.runs.count", 1, is_count, "a whole number from 1 to 10,000", "3")
     together = document.read(
         "hide.runs.together", "all", _TOGETHER.__contains__, f"one of {_TOGETHER}", '"joint"'
     )

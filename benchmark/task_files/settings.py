@@ -88,7 +88,7 @@ def read_settings(document: Document) -> Settings:
         training=read_patterns(document, "training", [OTHERS]),
         rate=None if rate is None else float(rate),
         select=partial(select_part, frames=frames, channels=read_channels(document, "channels")),
-        folds=document.read("folds", 1, is_count, "a whole number from 1", "5"),
+        folds=document.read("folds", 1, is_count, "a whole number from 1 to 10,000", "5"),
         models=_read_registered(document, "models", MODELS, '["linear", "knn"]'),
         metrics=_metrics(document),
     )

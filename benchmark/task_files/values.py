@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
-from math import isfinite
 from pathlib import PurePosixPath
-from typing import Any
+from typing import Annotated, Any
 
+from msgspec import Meta
+
+from mocapbench.benchmark.foreign_files import ForeignFileError, Name, fit_schema
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.selection import Span, parse_span
 
@@ -26,7 +28,7 @@ _SPANS = 'a text such as "120:180", with frames counted from 0 and the last one 
 
 def is_text(value: Any) -> bool:
     """Return whether a value is a text that says something."""
-    return isinstance(value, str) and bool(value.strip())
+    return _fits(value, Name) and bool(value.strip())
 
 
 def is_path(value: Any) -> bool:
@@ -38,13 +40,21 @@ def is_path(value: Any) -> bool:
 
 
 def is_count(value: Any) -> bool:
-    """Return whether a value is a whole number from 1."""
-    return type(value) is int and value > 0
+    """Return whether a value is a whole number from 1 to 10,000."""
+    return _fits(value, Annotated[int, Meta(ge=1, le=10_000)])
 
 
 def is_positive(value: Any) -> bool:
-    """Return whether a value is a finite number above 0."""
-    return type(value) in {int, float} and isfinite(value) and value > 0
+    """Return whether a value is a number above 0, of frames per second or of seconds."""
+    return _fits(value, Annotated[float, Meta(gt=0.0, le=1e9)])
+
+
+def _fits(value: Any, schema: Any) -> bool:
+    try:
+        fit_schema(value, schema)
+    except ForeignFileError:
+        return False
+    return True
 
 
 def read_names(document: Document, key: str, example: str) -> tuple[str, ...]:
@@ -104,7 +114,7 @@ def _are_patterns(value: Any) -> bool:
 def _are_expressions(value: Any) -> bool:
     try:
         return _are_texts(value) and all(map(re.compile, value))
-    except re.error:
+    except (re.error, OverflowError, RecursionError):
         return False
 
 

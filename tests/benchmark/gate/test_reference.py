@@ -108,7 +108,7 @@ def test_nothing_there_holds_no_values(tmp_path):
 )
 def test_a_file_that_is_none_is_refused(tmp_path, text):
     (tmp_path / "b.csv").write_text(text)
-    with pytest.raises(UsageError, match=r"b\.csv holds no reference values .*--update"):
+    with pytest.raises(UsageError, match=r"b\.csv: expected reference values; .*--update"):
         read_reference(tmp_path)
 
 

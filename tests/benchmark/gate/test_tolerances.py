@@ -39,14 +39,20 @@ def test_a_tolerance_may_be_zero(written):
     [
         ("[crosss]", "unknown entry of --tolerances 'crosss': did you mean cross"),
         ("[cross]\nrelativ = 1", "did you mean relative"),
-        ("[cross]\nk = -1", "cross.k: expected a number from 0, got -1"),
-        ("[cross]\nk = nan", "expected a number from 0, got nan"),
-        ("[cross]\nk = true", "expected a number from 0, got True"),
-        ("[same]\nk = 'three'", "same.k: expected a number from 0, got 'three'"),
-        ("cross = 3", "cross: expected a table, got 3"),
+        ("[cross]\nk = -1", "at cross.k, expected a number >= 0.0"),
+        ("[cross]\nk = nan", "at cross.k, expected a number >= 0.0"),
+        ("[cross]\nk = true", "at cross.k, expected a number, got true or false"),
+        ("[same]\nk = 'three'", "at same.k, expected a number, got text"),
+        ("cross = 3", "at cross, expected a table, got a whole number"),
         ("[cross.metrics.msl]\nk = 1", "did you mean msll"),
-        ("[cross.metrics]\nmsll = 1", "cross.metrics.msll: expected a table, got 1"),
-        ("[cross", "cannot be read as TOML"),
+        (
+            "[cross.metrics]\nmsll = 1",
+            "at cross.metrics.msll, expected a table, got a whole number",
+        ),
+        ("[cross]\nk = 1e400", "at cross.k, expected a number <= 1e\\+300"),
+        ("[cross", "t.toml: expected tolerances; expected ']' at the end"),
+        ("a = " + "[" * 10_000, "too many lists in one another"),
+        ("a = " + "9" * 10_000, "a number of too many digits"),
     ],
 )
 def test_a_file_that_is_no_good_says_why(written, text, complaint):

@@ -96,7 +96,7 @@ def test_the_parts_of_keys_survive_a_file(tmp_path_factory, entries):
         ({"parts": [["a"]]}, r"at parts\[0\], expected a list of length 2"),
         ({"keys": {"k": ["t", 1, "c", 0, "l"]}}, r"at keys\[...\], expected a list of length 6"),
         ({"keys": {"k": ["t", 1, "c", 0, "l", [-1]]}}, "expected a whole number >= 0"),
-        ({"keys": {"../k": ["t", 1, "c", 0, "l", []]}}, "at key in keys, expected text of letters"),
+        ({"keys": {"../k": ["t", 1, "c", 0, "l", []]}}, "at key in keys, expected text that names"),
         ({"format": 2}, "at format"),
     ],
     ids=str,

@@ -89,7 +89,7 @@ DEEP = json.loads("[" * 20 + "]" * 20)
         ({"message": 3}, "at message, expected text, got a whole number"),
         ({"message": "a" * 1_000_001}, "at message, expected text of length <= 1000000"),
         ({"label": "a" * 10_001}, "at label, expected text of length <= 10000"),
-        ({"fit_key": "../../.ssh/id"}, "at fit_key, expected text of letters"),
+        ({"fit_key": "../../.ssh/id"}, "at fit_key, expected text that names a file"),
         ({"status": "fine"}, "at status, invalid enum value 'fine'"),
         ({"parameters": {"rank": DEEP}}, r"at parameters\[...\]"),
         ({"parts": {"mse": [1.0]}}, r"at parts\[...\], expected a table, got a list"),

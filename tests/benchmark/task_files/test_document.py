@@ -1,7 +1,8 @@
 import tomllib
+from contextlib import suppress
 
 import pytest
-from hypothesis import given
+from hypothesis import given, reject
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.task_files.document import Document, TaskFileError, line_of
@@ -22,6 +23,7 @@ runs = { seconds = 0.5,
 count = 3 }
 '''.replace("0.5,\n", "0.5, ")  # inline tables have one line
 
+DEEP, HUGE = "a = " + "[" * 10_000, "a = " + "9" * 10_000
 LINES = {
     "title": 2,
     "files": 6,
@@ -47,7 +49,65 @@ def test_what_stands_before_a_key_moves_its_line(before):
     assert line_of(text, key) == len(before) + 1
 
 
-@pytest.mark.parametrize("text", ["files = ", "files = [\n", "[hide\n", "a = 1\na = 2\n", "\0"])
+LONG = "".join(f'a{n} = ["x", # ] }}\n  {{ b = "}}" }}]\n' for n in range(1500))
+
+
+def test_each_part_of_a_long_file_is_read_once_to_find_a_key(monkeypatch):
+    text, read = f"{LONG}[hide]\nshare = 1\n", []
+    monkeypatch.setattr(
+        tomllib, "loads", lambda text, loads=tomllib.loads: read.append(text) or loads(text)
+    )
+    assert line_of(text, "hide.share") == 3002
+    assert line_of(text, "hide.shares") == 3001
+    assert sum(map(len, read)) < 6 * len(text)
+
+
+KEY = st.sampled_from(["a", "b", '"c d"', "e.f"])
+VALUE = st.sampled_from(
+    [
+        "1",
+        '"x\\"[#"',
+        "'[ # '",
+        '"""\n[t]\na = 1\n"""',
+        "'''[\n'''",
+        "[\n1, # ]\n2]",
+        "{ a = [\n] }",
+    ]
+)
+ENTRY = st.builds("{} = {}".format, KEY, VALUE) | st.sampled_from(["", "# [", "[t]", "[t.u] # x"])
+
+
+def find_line_by_longer_beginnings(text, key):
+    """Return the line of a key as reading one line more at a time finds it."""
+    lines, before = text.split("\n"), 0
+    for end in range(1, len(lines) + 1):
+        with suppress(tomllib.TOMLDecodeError):
+            value = tomllib.loads("\n".join(lines[:end]) + "\n")
+            for name in key.split("."):
+                value = value.get(name) if isinstance(value, dict) else None
+            if value is not None:
+                return before + 1
+            before = end
+    return None
+
+
+@given(
+    st.lists(ENTRY, max_size=8), st.sampled_from(["a", "b", "c d", "e.f", "t.a", "t.u.b", "t.e.f"])
+)
+def test_a_key_stands_where_reading_line_by_line_finds_it(entries, key):
+    text = "\n".join(entries)
+    try:
+        tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        reject()
+    expected = find_line_by_longer_beginnings(text, key)
+    if expected is not None:
+        assert line_of(text, key) == expected
+
+
+@pytest.mark.parametrize(
+    "text", ["files = ", "files = [\n", "[hide\n", "a = 1\na = 2\n", "\0", DEEP, HUGE]
+)
 def test_what_is_no_toml_is_refused_with_the_place(text):
     with pytest.raises(TaskFileError, match=r"my.toml: expected TOML, got: .*; write lines"):
         _ = Document("my.toml", text).values
