@@ -1,7 +1,8 @@
-"""CSV that spreadsheets open as data: no text in it begins a formula.
+"""CSV that spreadsheets open as data: no text in it begins a formula, or hides what it is.
 
 A program that opens a CSV file takes a cell for a formula if it begins with one of a few
 characters, and a formula may call other programs. An apostrophe before them makes it text.
+Control characters and marks of direction are left out, as in a terminal.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ import re
 from typing import Any
 
 import pandas as pd
+
+from mocapbench.basics.words import printable
 
 __all__ = ["csv_text", "guard_text", "unguard_text"]
 
@@ -51,6 +54,6 @@ def _column(cells: pd.Series[Any]) -> pd.Series[Any]:
 def _cell(value: Any) -> Any:
     match value:
         case str():  # a carriage return, which writers leave unquoted, would begin a row
-            return guard_text(_LINE_END.sub("\n", value))
+            return guard_text(printable(_LINE_END.sub("\n", value)))
         case _:
             return value

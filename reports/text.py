@@ -9,6 +9,8 @@ from urllib.parse import quote
 
 import numpy as np
 
+from mocapbench.basics.words import printable
+
 __all__ = [
     "FEWEST_DECIMALS",
     "MINUS",
@@ -32,7 +34,7 @@ def slug(*names: str) -> str:
 
 def cell_anchor(task: str, case: str, label: str) -> str:
     """Return the address on the page of what is known of one cell, without the ``#``."""
-    return "cell=" + "/".join(quote(name, safe="") for name in (task, case, label))
+    return "cell=" + "/".join(quote(printable(name), safe="") for name in (task, case, label))
 
 
 def decimals(values: Iterable[float]) -> int:

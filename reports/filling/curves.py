@@ -8,7 +8,7 @@ import numpy as np
 from markupsafe import Markup
 
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.words import format_count, printable
+from mocapbench.basics.words import format_count
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes
 from mocapbench.reports.figures.marks import band, group, horizontal, polyline, rectangle
 from mocapbench.reports.figures.pictures.thinning import thin_points
@@ -67,7 +67,7 @@ def draw_curve(curve: FilledCurve) -> Markup:
     x = fit_linear_scale(curve.times, LEFT, WIDTH)
     values = np.concatenate([curve.visible, curve.filled, low, high])
     y = fit_linear_scale(values, TOP + HEIGHT, TOP)
-    names = "time, s", printable(curve.unit)
+    names = "time, s", curve.unit
     marks = [
         *(_shade_gap(x, *gap) for gap in curve.gaps),
         group(
@@ -77,12 +77,12 @@ def draw_curve(curve: FilledCurve) -> Markup:
         ),
         group(TRUTH, _draw_line(x, y, curve.times, curve.visible)),
     ]
-    return draw_axes((x, y), printable(curve.channel), names, marks, _describe_curve(curve))
+    return draw_axes((x, y), curve.channel, names, marks, _describe_curve(curve))
 
 
 def _describe_curve(curve: FilledCurve) -> str:
     gaps = format_count(len(curve.gaps), "filled gap")
-    return f"{printable(curve.channel)} over time, with {gaps}"
+    return f"{curve.channel} over time, with {gaps}"
 
 
 def draw_legend() -> tuple[Key, ...]:

@@ -15,7 +15,7 @@ from mocapbench.reports.filling.curves import (
     draw_curve,
     draw_legend,
 )
-from mocapbench.reports.resources import styles, template
+from mocapbench.reports.resources import fill_template, styles
 from mocapbench.reports.text import decimals, number
 
 __all__ = ["FilledPage", "render_filled"]
@@ -72,7 +72,9 @@ class FilledPage:
 
 def render_filled(page: FilledPage) -> str:
     """Return the page of a filled file as one self-contained HTML page."""
-    return template("page.html.j2", "mocapbench.reports.filling").render(
+    return fill_template(
+        "page.html.j2",
+        "mocapbench.reports.filling",
         page=page,
         curves=[draw_curve(curve) for curve in page.curves],
         legend=draw_legend(),

@@ -7,7 +7,6 @@ digests of recordings, stands once in ``shared`` and is referred to by its place
 
 from __future__ import annotations
 
-import json
 from base64 import b64encode
 from collections import defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
@@ -23,6 +22,7 @@ from mocapbench.reports.analysis.estimates import FoldMean
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.origin import Origin
+from mocapbench.reports.resources import dump_json
 
 __all__ = ["COLUMNS", "Origins", "cells_json"]
 
@@ -64,7 +64,7 @@ def cells_json(results: Sequence[TaskResults], origins: Origins) -> Markup:
         for of_task in results
     }
     document = {"columns": COLUMNS, "tasks": tasks, "shared": list(shared)}
-    return htmlsafe_json_dumps(document, dumps=partial(json.dumps, separators=(",", ":")))
+    return htmlsafe_json_dumps(document, dumps=partial(dump_json, separators=(",", ":")))
 
 
 def _describe(info: MetricInfo) -> list[str]:

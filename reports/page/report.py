@@ -25,7 +25,7 @@ from mocapbench.reports.page.facts import facts
 from mocapbench.reports.page.notes import missing_data, shared_notes
 from mocapbench.reports.page.sections import Part, task_section
 from mocapbench.reports.paper.citations import citations_of
-from mocapbench.reports.resources import scripts, styles, template
+from mocapbench.reports.resources import digest_of_script, fill_template, scripts, styles
 from mocapbench.reports.tables.check import check_table
 from mocapbench.reports.tables.papers import papers_table
 
@@ -38,7 +38,9 @@ def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
     results = sorted((task_results(bundle, layout) for layout in bundle.layouts), key=_place)
     families = in_families(_models(results))
-    return template("parts/page.html.j2").render(
+    js = scripts()
+    return fill_template(
+        "parts/page.html.j2",
         bundle=bundle,
         metrics=bundle.metrics,
         provenance=bundle.provenance,
@@ -54,7 +56,8 @@ def render(bundle: Bundle) -> str:
         citations=citations_of(layout.page.reference for layout in bundle.layouts),
         cells=cells_json(results, bundle.origins),
         css=styles(),
-        js=scripts(),
+        js=js,
+        js_digest=digest_of_script(js),
     )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from markupsafe import Markup
 
 from mocapbench.basics.words import format_count
-from mocapbench.reports.resources import styles, template
+from mocapbench.reports.resources import fill_template, styles
 from mocapbench.reports.run_comparison.chart import slope_chart
 from mocapbench.reports.run_comparison.values import ChangeVerdict, RunChanges, ScoreChange
 from mocapbench.reports.text import MINUS
@@ -18,7 +18,9 @@ __all__ = ["render_changes"]
 def render_changes(changes: RunChanges) -> str:
     """Return what changed between two runs as one self-contained HTML page."""
     slopes, identical = _slopes(changes)
-    return template("page.html.j2", "mocapbench.reports.run_comparison").render(
+    return fill_template(
+        "page.html.j2",
+        "mocapbench.reports.run_comparison",
         changes=changes,
         summary=_summary(changes),
         slopes=slopes,

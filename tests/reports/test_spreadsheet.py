@@ -5,9 +5,11 @@ import re
 from io import StringIO
 
 import pandas as pd
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mocapbench.basics.words import printable
 from mocapbench.reports.spreadsheet import csv_text, guard_text, unguard_text
 
 FORMULA = "=+-@\t\r\n＝＋－＠"
@@ -56,9 +58,15 @@ def test_text_and_headings_are_guarded():
 def test_every_text_stays_in_its_cell(rows):
     frame = pd.DataFrame(rows, columns=["one", "two"])
     _, *read = csv.reader(StringIO(csv_text(frame), newline=""), strict=True)
-    lines = [[re.sub("\r\n?", "\n", text) for text in row] for row in rows]
+    lines = [[printable(re.sub("\r\n?", "\n", text)) for text in row] for row in rows]
     assert [[*map(unguard_text, row)] for row in read] == lines
     assert not {text[:1] for row in read for text in row} & set(FORMULA)
+
+
+@pytest.mark.parametrize("text", ["\0=1+1", "\u202e=1+1", "\x1b[2J=1+1"])
+def test_what_is_left_out_hides_no_formula(text):
+    frame = pd.DataFrame({text: [text, "a\u2067b"]})
+    assert csv_text(frame) == "'=1+1\n'=1+1\nab\n"
 
 
 def test_a_table_without_rows_or_text_is_written():

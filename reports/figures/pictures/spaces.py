@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from base64 import b64encode
 from collections.abc import Callable, Mapping
 
@@ -18,6 +17,7 @@ from mocapbench.reports.figures.marks import dot, group, polyline, svg, text
 from mocapbench.reports.figures.pictures.thinning import thin_points
 from mocapbench.reports.figures.styles import DrawingStyle, group_styles
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure, key, line_keys
+from mocapbench.reports.resources import dump_json
 
 __all__ = ["draw", "projection"]
 
@@ -139,7 +139,7 @@ def _canvas(
     return Markup(
         '<canvas class="space" hidden tabindex="0" role="img" width="{0}" height="{0}" '
         'aria-label="{1}: drag, or press arrows, to turn" data-space="{2}"></canvas>'
-    ).format(int(WIDTH), space.title, json.dumps(data, separators=(",", ":")))
+    ).format(int(WIDTH), space.title, dump_json(data, separators=(",", ":")))
 
 
 def _encode_points(points: Array) -> str:

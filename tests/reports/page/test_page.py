@@ -1,12 +1,16 @@
+import json
 import re
+from base64 import b64encode
 from collections import Counter
 from dataclasses import replace
+from hashlib import sha256
 from html.parser import HTMLParser
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
+from mocapbench.basics.words import printable
 from mocapbench.reports import CaseLayout, render
 
 QUICK = {"profile": "quick"}
@@ -83,6 +87,26 @@ def test_hostile_names_stay_text(small):
     name = "<script>alert('x')</script>\"&"
     hostile = Outline(render(small({name: {name: [1.0, 2.0], "b": [float("nan")] * 2}})))
     assert len(hostile.of("script")) == 2
+
+
+def test_no_name_hides_what_it_is(small):
+    name, seen = "kn\u202en\x1b]0;x\x07\u2067\0", "knn"
+    values = {name: {name: [1.0, 2.0], "b": [float("nan")] * 2}}
+    page = render(small(values, task=name, title=name))
+    assert printable(page) == page
+    ((cells,),) = [re.findall(r'id="cells">(.*)</script>', page)]
+    assert [*json.loads(cells)["tasks"]] == [seen]
+    assert not re.search(r"\\u(?:202e|001b|2067|0000)", cells)
+    assert f"#cell={seen}/{seen}/{seen}" in page
+
+
+def test_the_policy_names_the_script_of_the_page_and_no_other(page):
+    (policy,) = re.findall(r'Content-Security-Policy" content="([^"]*)"', page)
+    (script,) = re.findall("<script>(.*?)</script>", page, re.DOTALL)
+    digest = b64encode(sha256(script.encode()).digest()).decode()
+    assert policy == (
+        f"default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
+    )
 
 
 def test_the_headline_says_that_the_simple_model_wins(page):
