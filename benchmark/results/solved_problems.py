@@ -7,6 +7,9 @@ from math import isfinite, nan
 from typing import Any
 
 from mocapbench.benchmark.figures.solved import Solved
+from mocapbench.benchmark.messages import reason
+from mocapbench.benchmark.problems.arrays import Arrays
+from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.results.interpolations import interpolates
 from mocapbench.benchmark.runs.directory import RunDirectory
@@ -50,6 +53,9 @@ def solved_problem(
     if not _has_same_recordings(case, records[0], archive):
         return None
     problem = case.problem(Seeds(records[0].seed, address), archive)
+    arrays = {k: v for k, v in arrays.items() if _are_solution(problem, v, k, store)}
+    if not arrays:
+        return None
     return Solved(
         task.name,
         problem,
@@ -61,6 +67,16 @@ def solved_problem(
         interpolations=[r.address.label for r in records if interpolates(r.model)],
         archive=archive,
     )
+
+
+def _are_solution(problem: Problem[Any], arrays: Arrays, label: str, store: RunDirectory) -> bool:
+    """Return whether stored arrays solve a problem; if not, the store says so of its damage."""
+    try:
+        problem.outcome(problem.from_arrays(arrays))
+    except (ValueError, LookupError, TypeError, AttributeError) as error:
+        store.damaged.append(f"predictions of {label}: {reason(error)}")
+        return False
+    return True
 
 
 def _ranking(task: Task, records: Sequence[Record]) -> tuple[str, ...]:

@@ -96,6 +96,26 @@ WRONG = [
         r"hide.runs.count: .* got 0; writ",
     ),
     (
+        'files = "*.csv"\n[hide]\nruns = { seconds = 1, count = 10001 }',
+        r"hide.runs.count: expected a whole number from 1 to 10,000, got 10001; writ",
+    ),
+    (
+        f'files = "*.csv"\nfolds = {"9" * 20}\n[hide]\nfraction = 0.2',
+        r"folds: expected a whole number from 1 to 10,000, got 9{20}; writ",
+    ),
+    (
+        'files = "*.csv"\nrate = inf\n[hide]\nfraction = 0.2',
+        r"rate: expected frames per second, got inf; writ",
+    ),
+    (
+        'files = "*.csv"\nchannels = "a{99999999999999999999}"\n[hide]\nfraction = 0.2',
+        r"channels: expected regular expressions",
+    ),
+    (
+        f'files = "*.csv"\nrate = "{"x" * 10_000}"\n[hide]\nfraction = 0.2',
+        r"rate: expected frames per second, got 'x{99} … x{99}'; writ",
+    ),
+    (
         'files = "*.csv"\n[hide]\nruns = { seconds = 1, together = "x" }',
         r"hide.runs.together: .*'x'",
     ),
