@@ -39,6 +39,7 @@ __all__ = [
     "decode_toml",
     "encode_json",
     "fit_schema",
+    "list_schema",
     "read_bytes",
     "read_file",
     "read_json",
@@ -96,7 +97,12 @@ def table_schema(entries: Mapping[str, Any], optional: Mapping[str, Any] | None 
         The schema of each entry that there must be, and that there may be.
     """
     others = {name: NotRequired[schema] for name, schema in (optional or {}).items()}
-    return TypedDict("table", {**entries, **others})  # type: ignore[operator, misc]
+    return TypedDict("table", {**entries, **others})  # type: ignore[operator]
+
+
+def list_schema(schema: Any) -> Any:
+    """Return the schema of a list whose values all have one schema."""
+    return list[schema]
 
 
 def read_file(path: Path, what: str, advice: str, read: Callable[[Path], T]) -> T:
@@ -121,7 +127,7 @@ def read_file(path: Path, what: str, advice: str, read: Callable[[Path], T]) -> 
         raise ForeignFileError(f"{path}: expected {what}; {error}; {advice}") from error
 
 
-def read_json(path: Path, schema: type[T] | Any, most: int = _LARGEST) -> T:
+def read_json(path: Path, schema: Any, most: int = _LARGEST) -> Any:
     """Return what a JSON file says.
 
     Parameters
@@ -140,7 +146,7 @@ def read_json(path: Path, schema: type[T] | Any, most: int = _LARGEST) -> T:
     return decode_json(read_bytes(path, most), schema)
 
 
-def read_toml(path: Path, schema: type[T] | Any) -> T:
+def read_toml(path: Path, schema: Any) -> Any:
     """Return what a TOML file says; see `read_json`."""
     return decode_toml(read_text(path), schema)
 
@@ -175,7 +181,7 @@ def read_bytes(path: Path, most: int = _LARGEST) -> bytes:
     return content
 
 
-def decode_json(data: bytes | str, schema: type[T] | Any) -> T:
+def decode_json(data: bytes | str, schema: Any) -> Any:
     """Return what a JSON text says.
 
     Raises
@@ -222,7 +228,7 @@ def _escape_texts(value: Any) -> Any:
             return value
 
 
-def decode_toml(text: str, schema: type[T] | Any) -> T:
+def decode_toml(text: str, schema: Any) -> Any:
     """Return what a TOML text says; see `decode_json`."""
     return _tell_schema(lambda: msgspec.convert(_parse_toml(text), schema))
 
@@ -255,7 +261,7 @@ def decode_rows(lines: Iterable[str]) -> list[dict[str, str]]:
     return rows
 
 
-def fit_schema(value: Any, schema: type[T] | Any, *, strict: bool = True) -> T:
+def fit_schema(value: Any, schema: Any, *, strict: bool = True) -> Any:
     """Return a value of a document, which must fit a schema; see `decode_json`.
 
     Parameters

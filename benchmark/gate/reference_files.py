@@ -28,6 +28,7 @@ from mocapbench.benchmark.foreign_files import (
     Name,
     decode_rows,
     fit_schema,
+    list_schema,
     read_file,
     read_text,
     table_schema,
@@ -121,7 +122,7 @@ def _read_values(path: Path) -> Reference:
     if not all(colon for _, colon, _ in facts):
         raise ForeignFileError("expected lines such as '# seed: 0' at its beginning")
     cells = map(_nest_folds, decode_rows(lines[len(head) :]))
-    rows: list[dict[str, Any]] = fit_schema([*cells], list[_ROW], strict=False)
+    rows: list[dict[str, Any]] = fit_schema([*cells], list_schema(_ROW), strict=False)
     return Reference(_distinct(map(_row, rows)), {name: fact for name, _, fact in facts})
 
 

@@ -6,7 +6,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mocapbench.benchmark.foreign_files import Index, Name, Text, read_file, read_json, table_schema
+from mocapbench.benchmark.foreign_files import (
+    Index,
+    Name,
+    Text,
+    list_schema,
+    read_file,
+    read_json,
+    table_schema,
+)
 
 __all__ = ["read_check"]
 
@@ -27,7 +35,7 @@ _FINDING = table_schema(
     },
 )
 _CHECK = table_schema(
-    {"reference": Name, "summary": Text, "passed": bool, "findings": list[_FINDING]}
+    {"reference": Name, "summary": Text, "passed": bool, "findings": list_schema(_FINDING)}
 )
 
 

@@ -303,6 +303,7 @@ class RunDirectory:
 
 def _require_layout(path: Path) -> None:
     """Refuse a run directory that another version of this code has laid out."""
+    found: dict[str, int] | None
     try:
         found = read_json(path / _MARKER, dict[Key, int])
     except ForeignFileError:

@@ -18,6 +18,7 @@ from mocapbench.benchmark.foreign_files import (
     KeyOrNone,
     Name,
     Text,
+    list_schema,
     read_file,
     read_json,
     table_schema,
@@ -38,7 +39,7 @@ _ROW = {
     "label": Name,
 }
 _PLAN = table_schema(
-    {"keys": list[Key], "jobs": list[table_schema(_ROW)], "provenance": dict[Name, Text]},
+    {"keys": list[Key], "jobs": list_schema(table_schema(_ROW)), "provenance": dict[Name, Text]},
     optional={
         "workers": Count,
         "runs": list[dict[Name, Text]],

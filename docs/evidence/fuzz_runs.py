@@ -30,8 +30,8 @@ from mocapbench.basics.words import printable
 from mocapbench.benchmark import RunDirectory, planned_task_files
 from mocapbench.benchmark.cli.main import main as mocapbench
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.results.cell_commands import cell_command
 from mocapbench.benchmark.results.frames import job_table, score_table
+from mocapbench.benchmark.results.origins import cell_command
 from mocapbench.benchmark.testing import damage_bytes
 
 REQUEST = ("--profile", "smoke", "--tasks", "toy-interpolation-1", "--cases", "test 1")
