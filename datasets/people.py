@@ -196,7 +196,7 @@ class People:
             if row["role"] == "train":
                 of_persons.setdefault(row["person"], []).append(uri)
         return {
-            fold: _take_turns(
+            fold: _interleave(
                 uris for person, uris in of_persons.items() if self._folds[person] != fold
             )
             for fold in range(N_FOLDS)
@@ -208,7 +208,7 @@ class People:
         return min(len(self._strangers[self.fold(subject)]) for subject in self.subjects)
 
 
-def _take_turns(lists: Iterable[list[str]]) -> tuple[str, ...]:
+def _interleave(lists: Iterable[list[str]]) -> tuple[str, ...]:
     """Return the first of each list, then the second of each, and so on."""
     rounds = zip_longest(*lists)
     return tuple(uri for uri in chain.from_iterable(rounds) if uri is not None)

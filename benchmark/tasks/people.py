@@ -284,7 +284,7 @@ def people_tasks(*lists: People) -> dict[str, Task]:
 
 NAMES = {"lost-limb": "a limb", "lost-markers": "five joints", "in-betweening": "whole frames"}
 ENDS = {"positions": "", "angles": "-angles"}
-_SHOWN_IN_QUICK = ("lost-limb",)
+IN_QUICK = ("lost-limb",)
 
 N_QUICK, N_PAPER = 12, 30
 """Folds of the profiles: people, each with one recording."""
@@ -320,11 +320,9 @@ def _build_profiles(name: str, cases: tuple[Case, ...], n_folds: int) -> dict[st
     short = tuple(case.name for case in cases if _IN_QUICK.items() <= case.columns.items())
     budget = {"max_iter": 10, "n_restarts": 1}
     paper = Profile(on_recordings(cases) or everything, min(N_PAPER, n_folds), {}, _SLOW)
-    if name not in _SHOWN_IN_QUICK:
-        return {"paper": paper}
     smoke = Profile(short[-1:] or everything[:1], 1, {"max_iter": 2, "n_restarts": 1}, _SLOW)
     quick = Profile(short or everything, min(N_QUICK, n_folds), budget, _SLOW)
-    return {"smoke": smoke, "quick": quick, "paper": paper}
+    return {"smoke": smoke, "paper": paper, **({"quick": quick} if name in IN_QUICK else {})}
 
 
 _TASKS = people_tasks(read_people(), generated_people())

@@ -29,6 +29,13 @@ ENTRANTS = {
     "exaggerated-synthesis": ("hgp", "replay"),
     "soccer-synthesis": ("hgp", "replay"),
     "marker-gaps": ("linear", "trivial"),
+    **dict.fromkeys(
+        (
+            *("lost-limb", "lost-markers", "in-betweening"),
+            *("lost-limb-angles", "lost-markers-angles", "in-betweening-angles"),
+        ),
+        ("linear", "trivial"),
+    ),
     "missing-frames": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
     "golf-swings": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
     "upper-body-missing": ("nn", "trivial"),
