@@ -292,6 +292,7 @@ _IN_QUICK = {"trained on": "strangers", "recordings": 10, "seconds": 1.0}
 
 _SLOW = ("best-of", "cyclic-alignment", "gpdm", "gplvm", "fam", "lds")
 """Models that take longer than all others together."""
+_NOT_QUICK = (*_SLOW, "channel-kriging")
 
 
 def _build_task(name: str, lists: tuple[People, ...], values: str, hidden: str) -> Task:
@@ -321,7 +322,7 @@ def _build_profiles(name: str, cases: tuple[Case, ...], n_folds: int) -> dict[st
     budget = {"max_iter": 10, "n_restarts": 1}
     paper = Profile(on_recordings(cases) or everything, min(N_PAPER, n_folds), {}, _SLOW)
     smoke = Profile(short[-1:] or everything[:1], 1, {"max_iter": 2, "n_restarts": 1}, _SLOW)
-    quick = Profile(short or everything, min(N_QUICK, n_folds), budget, _SLOW)
+    quick = Profile(short or everything, min(N_QUICK, n_folds), budget, _NOT_QUICK)
     return {"smoke": smoke, "paper": paper, **({"quick": quick} if name in IN_QUICK else {})}
 
 
