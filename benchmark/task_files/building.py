@@ -149,7 +149,7 @@ def _page(settings: Settings, cases: tuple[Case, ...], hidden: Hidden) -> TaskPa
         description=settings.description,
         question=_question(hidden),
         metrics=settings.metrics,
-        along=columns[0] if columns else None,
+        along=tuple(columns[:1]),
         illustrated=tuple(case.name for case in cases if case.columns.items() >= most.items()),
         figures=(
             draw_filled_motion,

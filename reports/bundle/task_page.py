@@ -96,9 +96,9 @@ class TaskPage:
     crossed : tuple of two str, or None
         The columns of the cases that go along the rows and along the columns of the tables, where
         every case is a pair and only one entrant takes part.
-    along : str or None
-        The column of the cases, of numbers, that figures show scores along, with one panel for
-        the cases that are alike in all other columns.
+    along : tuple of str
+        The columns of the cases, of numbers, that figures show scores along: a figure each, with
+        one panel for the cases that are alike in all other columns.
     illustrated : tuple of str
         Names of cases. The first of them that has solutions is shown in figures.
     figures : tuple of Figure
@@ -125,7 +125,7 @@ class TaskPage:
     exempt: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     crossed: tuple[str, str] | None = None
-    along: str | None = None
+    along: tuple[str, ...] = ()
     illustrated: tuple[str, ...] = ()
     figures: tuple[Figure, ...] = ()
 

@@ -12,7 +12,16 @@ import numpy as np
 
 from mocapbench.basics.arrays import Array
 
-__all__ = ["LinearScale", "LogScale", "Scale", "fit_linear_scale", "fit_scale", "remark"]
+__all__ = [
+    "CountScale",
+    "LinearScale",
+    "LogScale",
+    "Scale",
+    "fit_count_scale",
+    "fit_linear_scale",
+    "fit_scale",
+    "remark",
+]
 
 _ROUND = (1.0, 2.0, 5.0, 10.0)
 _LOG_TICKS = (((1, 2, 5), 1), ((1, 3), 1), *(((1,), every) for every in (1, 2, 3, 5, 10, 20, 50)))
@@ -117,6 +126,25 @@ class LogScale(Scale):
         return [tick for tick in ticks if self.low <= tick <= self.high]
 
 
+class CountScale(Scale):
+    """Equal ratios take about equal lengths, and zero is on it too."""
+
+    about_means: ClassVar[str] = ""
+
+    @staticmethod
+    def forward(values: Array) -> Array:  # noqa: D102
+        return np.asarray(np.log1p(values))
+
+    @staticmethod
+    def backward(values: Array) -> Array:  # noqa: D102
+        return np.asarray(np.expm1(values))
+
+    def ticks(self, most: int = 5) -> list[float]:  # noqa: D102
+        powers = range(math.ceil(math.log10(max(self.high, 1.0))))
+        ticks = {digit * 10.0**power for power in powers for digit in (1, 3, 10)}
+        return [0.0, *sorted(tick for tick in ticks if tick <= self.high)[-most:]]
+
+
 def _round_step(least: float) -> float:
     """Return the smallest of 1, 2, 5, 10 … times a power of ten that is at least ``least``."""
     power = 10.0 ** math.floor(math.log10(least))
@@ -136,6 +164,11 @@ def fit_scale(values: Iterable[float], start: float, stop: float) -> Scale:
     low, high = _range(values)
     kind = LogScale if low > 0.0 and high > LOG_RANGE * low else LinearScale
     return _around(kind, low, high, start, stop)
+
+
+def fit_count_scale(values: Iterable[float], start: float, stop: float) -> Scale:
+    """Return the scale that shows counts from zero, logarithmic but for that; see `fit_scale`."""
+    return _around(CountScale, *_range(values), start, stop)
 
 
 def fit_linear_scale(values: Iterable[float], start: float, stop: float) -> Scale:

@@ -36,8 +36,9 @@ def open_figures(results: TaskResults, parts: ErrorParts, styles: Styles) -> lis
     """
     page = results.layout.page
     metric = page.metrics[0]
-    curves = curves_along(results, metric, page.along, styles) if page.along else None
-    return _drop_missing(curves, gap_error(results, parts, styles), _ranks(results, metric, styles))
+    curves = [curves_along(results, metric, column, styles) for column in page.along]
+    ranks = _ranks(results, metric, styles)
+    return _drop_missing(*curves, gap_error(results, parts, styles), ranks)
 
 
 def folded_figures(results: TaskResults, parts: ErrorParts, styles: Styles) -> list[SvgFigure]:

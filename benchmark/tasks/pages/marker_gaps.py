@@ -19,7 +19,7 @@ PAGE = TaskPage(
     ),
     question="other-channels",
     metrics=("mpjpe", "bone_length_error", "jerk_ratio", "coverage_95", "msll", "crps"),
-    along="seconds",
+    along=("seconds",),
     illustrated=(
         "a limb 1 s, others of the subject",
         "synthetic a limb 0.5 s, others of the subject",

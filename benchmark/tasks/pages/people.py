@@ -56,7 +56,7 @@ def describe_page(values: str, hidden: str, cases: Collection[str]) -> TaskPage:
         ),
         question=question,
         metrics=metrics,
-        along="seconds",
+        along=("recordings", "seconds"),
         illustrated=tuple(case for case in _ILLUSTRATED if case in cases),
         figures=(draw_filled_motion,),
         remarks=(

@@ -14,7 +14,7 @@ from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes, panels
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.marks import band, dot, group, polyline
-from mocapbench.reports.figures.scale import Scale, fit_scale, remark
+from mocapbench.reports.figures.scale import Scale, fit_count_scale, fit_scale, remark
 from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_values
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure, line_keys
@@ -85,7 +85,8 @@ class _Panel:
         samples = (sample for curve in curves.values() for sample in curve.values())
         y = fit_scale((value for sample in samples for value in sample.values), 0, 1)
         y = type(y)(y.low, y.high, TOP + HEIGHT, TOP)
-        x = fit_scale((float(case.columns[self.column]) for case in cases), LEFT, WIDTH)
+        along = [float(case.columns[self.column]) for case in cases]
+        x = (fit_scale if min(along) else fit_count_scale)(along, LEFT, WIDTH)
         title = self.results.metrics[self.metric].title
         order = sorted(curves, key=lambda label: self._mean_loss(curves[label]))
         banded = [

@@ -112,7 +112,7 @@ def test_a_model_takes_part_without_its_calibration_where_the_file_names_it(chec
 def test_each_length_of_gaps_is_a_case(check):
     task = build_task(check('files = "*.csv"\n[hide]\nruns = { seconds = [0.1, 0.2] }\n'))
     assert [case.name for case in task.cases] == ["a 0.1 s", "a 0.2 s", "b 0.1 s", "b 0.2 s"]
-    assert task.page.along == "seconds"
+    assert task.page.along == ("seconds",)
     assert task.cases[1].columns == {"recording": "a", "seconds": 0.2}
 
 

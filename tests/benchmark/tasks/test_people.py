@@ -305,3 +305,20 @@ def test_recordings_at_half_the_rate_take_twice_the_share_of_frames():
     slow, fast = given(60), given(120)
     assert len(slow.times) in (2 * len(fast.times), 2 * len(fast.times) - 1)
     np.testing.assert_allclose(np.diff(slow.times), 1 / RATE)
+
+
+def test_paper_runs_both_curves_on_recordings_of_thirty_people():
+    for name in TASK_NAMES:
+        profile = TASKS.get(name).profile("paper")
+        assert profile.folds == 30
+        assert set(profile.cases) == {
+            *(f"1 s {regime}" for regime in REGIMES),
+            *(f"{s:g} s {regime}" for s in SECONDS for regime in ("alone", "own", "30 strangers")),
+        }
+
+
+def test_columns_of_scores_say_from_how_many_recordings_of_whom_models_learn():
+    columns = {case.name: case.columns for case in TASKS.get("lost-limb").cases}
+    assert columns["1 s own"] == {"learnt from": "the person", "recordings": 3, "seconds": 1.0}
+    assert columns["1 s alone"] == {"learnt from": "others", "recordings": 0, "seconds": 1.0}
+    assert columns["2 s 30 strangers"]["recordings"] == 30

@@ -8,7 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.reports.figures.axes import format_tick
-from mocapbench.reports.figures.scale import LinearScale, LogScale, fit_scale, remark
+from mocapbench.reports.figures.scale import (
+    LinearScale,
+    LogScale,
+    fit_count_scale,
+    fit_scale,
+    remark,
+)
 
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False).map(lambda x: round(x, 6))
 POSITIVE = st.floats(1e-6, 1e6)
@@ -64,3 +70,18 @@ def test_an_axis_that_spans_little_says_so():
 )
 def test_ticks_are_written_for_people(tick, text):
     assert format_tick(tick) == text
+
+
+def test_counts_begin_at_zero_and_equal_ratios_take_about_equal_lengths():
+    scale = fit_count_scale([0, 3, 10, 30, 100], 0.0, 100.0)
+    places = scale.places(np.array([0.0, 3.0, 10.0, 30.0, 100.0]))
+    assert 0 < places[0] < places[-1] < 100
+    steps = np.diff(places)
+    assert steps.max() < 1.5 * steps.min()
+    assert scale.ticks() == [0, 1, 3, 10, 30, 100]
+    np.testing.assert_allclose(scale.backward(scale.forward(places)), places)
+
+
+def test_ticks_of_many_counts_are_few_and_zero_is_among_them():
+    ticks = fit_count_scale([0, 50_000], 0.0, 100.0).ticks(4)
+    assert ticks == [0, 1000, 3000, 10_000, 30_000]
