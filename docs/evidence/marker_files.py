@@ -40,7 +40,7 @@ def read_markers(path: Path) -> Recording:
         lengths = [
             name
             for name, unit in zip(recording.channels, recording.units, strict=True)
-            if unit in ("mm", "cm", "m")
+            if unit in ("mm", "cm", "m", "")
         ]
         recording = recording.select(lengths)
     else:
