@@ -1,4 +1,4 @@
-"""Damage run directories in many ways, and count how commands end on them; see docs/formats.md.
+"""Damage run directories in many ways, and count how commands end on them.
 
     python docs/evidence/fuzz_runs.py 100000 0
 
