@@ -21,9 +21,18 @@ Mask = NDArray[np.bool_]
 """(N, D) True or False for each entry of a recording."""
 
 
-def _frozen(copy: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return a copy on immutable bytes, which no model can make writeable again."""
-    return np.frombuffer(copy.tobytes(), dtype=np.float64).reshape(copy.shape)
+def _freeze(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return numbers on immutable bytes, which no model can make writeable again."""
+    if numbers.flags.c_contiguous and _is_frozen(numbers):
+        return numbers  # of another recording, which may be large
+    return np.frombuffer(numbers.tobytes(), dtype=np.float64).reshape(numbers.shape)
+
+
+def _is_frozen(numbers: object) -> bool:
+    """Return whether an array is on immutable bytes."""
+    while type(numbers) is np.ndarray:
+        numbers = numbers.base
+    return type(numbers) is bytes
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +107,7 @@ class Recording:
         self._validate()
 
     def _numbers(self, field: str, values: ArrayLike) -> NDArray[np.float64]:
-        return _frozen(real_numbers(f"{field} of recording {self.name!r}", values))
+        return _freeze(real_numbers(f"{field} of recording {self.name!r}", values))
 
     def _names(self, field: str, names: str | Sequence[str]) -> tuple[str, ...]:
         # A single string would be taken as one name per letter.
@@ -182,7 +191,7 @@ class Recording:
                 f"recording {self.name!r}: expected True or False for each entry to hide, of shape "
                 f"{shape} (times, channels), got {mask.dtype} of shape {mask.shape}"
             )
-        return self.with_values(np.where(mask, np.nan, self.values))
+        return self.with_values(np.where(mask, np.nan, self.values)) if mask.any() else self
 
     def select(self, channels: Sequence[str]) -> Recording:
         """Return the named channels, in the order given.
@@ -196,6 +205,8 @@ class Recording:
         missing = [name for name in names if name not in self.channels]
         if missing:
             raise ValueError(f"recording {self.name!r} has no channels {missing}")
+        if names == self.channels:
+            return self
         columns = [self.channels.index(name) for name in names]
         return replace(
             self,

@@ -8,6 +8,7 @@ Control characters and marks of direction are left out, as in a terminal.
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import Any
 
 import pandas as pd
@@ -53,7 +54,13 @@ def _column(cells: pd.Series[Any]) -> pd.Series[Any]:
 
 def _cell(value: Any) -> Any:
     match value:
-        case str():  # a carriage return, which writers leave unquoted, would begin a row
-            return guard_text(printable(_LINE_END.sub("\n", value)))
+        case str():
+            return _guard_line(value)
         case _:
             return value
+
+
+@lru_cache(maxsize=4096)  # of hundreds of thousands of rows most have the same texts
+def _guard_line(text: str) -> str:
+    # A carriage return, which writers leave unquoted, would begin a row.
+    return guard_text(printable(_LINE_END.sub("\n", text)))

@@ -37,18 +37,20 @@ def arrange(problem: GapProblem) -> tuple[GapProblem, Index]:
 
 def arrange_entries(entries: NDArray[Any], arranged: GapProblem, order: Index) -> NDArray[Any]:
     """Return values of the wanted entries (M,) of a problem in the order of the arranged one."""
-    target = arranged.target[:, np.argsort(order)]
-    values = np.empty(target.shape, entries.dtype)
-    values[target] = entries
-    return values[:, order][arranged.target]
+    return entries[_rank_entries(arranged, order)]
 
 
 def restore_entries(entries: NDArray[Any], arranged: GapProblem, order: Index) -> NDArray[Any]:
     """Return values of the wanted entries (M,) of an arranged problem in the order from before."""
-    values = np.empty(arranged.target.shape, entries.dtype)
-    values[arranged.target] = entries
-    as_before = np.argsort(order)
-    return values[:, as_before][arranged.target[:, as_before]]
+    restored = np.empty_like(entries)
+    restored[_rank_entries(arranged, order)] = entries
+    return restored
+
+
+def _rank_entries(arranged: GapProblem, order: Index) -> Index:
+    """Return the place (M,) that each wanted entry of an arranged problem had before."""
+    frames, channels = np.nonzero(arranged.target)
+    return np.argsort(np.argsort(frames * len(order) + order[channels]))
 
 
 def _digest(recording: Recording) -> bytes:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
 from mocapbench.benchmark import recording_checks
+from mocapbench.benchmark.filling.gaps import Gap
 from mocapbench.benchmark.filling.requests.names import name_hidden_markers
 from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.datasets.formats.strays import list_measured
@@ -27,21 +29,22 @@ def find_faults_at_gaps(request: FillRequest) -> list[Fault]:
     """
     given = request.given
     measured = given.select(list_measured(given.channels, request.results))
-    gaps = [
-        (gap.start, gap.stop, {*name_hidden_markers(given.channels, [gap])}) for gap in request.gaps
-    ]
+    gaps: dict[str, list[Gap]] = defaultdict(list)
+    for gap in request.gaps:
+        for name in name_hidden_markers(given.channels, [gap]):
+            gaps[name].append(gap)
     touching = [
         fault
         for fault in recording_checks.list_faults(measured)
-        if any(
-            fault["start"] <= stop + _BESIDE
-            and start <= fault["stop"] + _BESIDE
-            and names & {*fault["markers"]}
-            for start, stop, names in gaps
-        )
+        if any(_is_beside(fault, gap) for name in fault["markers"] for gap in gaps[name])
     ]
     kinds = [*recording_checks.TITLES]
     return sorted(touching, key=lambda fault: kinds.index(fault["kind"]))
+
+
+def _is_beside(fault: Fault, gap: Gap) -> bool:
+    """Return whether a fault touches a gap, or frames near it."""
+    return bool(fault["start"] <= gap.stop + _BESIDE and gap.start <= fault["stop"] + _BESIDE)
 
 
 def describe_faults(faults: Sequence[Fault]) -> Iterator[str]:

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from mocapbench.baselines import FrameImputer, Model, Prediction
+from mocapbench.baselines import FrameImputer, Model
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.filling.gap_problem import (
     GapProblem,
@@ -33,7 +33,6 @@ from mocapbench.benchmark.filling.gap_problem import (
 from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.runs.execution.child import LONGEST
 from mocapbench.benchmark.runs.fitting.solve import build_model
-from mocapbench.datasets import FrameByChannel
 
 __all__ = ["FillAttempt", "attempt_fill", "fill_problem", "keep_constants"]
 
@@ -142,34 +141,29 @@ def _locate_error(error: BaseException, model: type[FrameImputer]) -> str:
     return f" ({path.name}, line {lines[-1]})" if lines else ""
 
 
-def _predict(build: Callable[[], Any], problem: GapProblem, method: str) -> Prediction:
-    """Return what the model predicts of all channels (N, D), NaN of those that nobody has seen."""
-    seen = drop_unseen(problem)
+def _predict(build: Callable[[], Any], problem: GapProblem, method: str) -> PredictedEntries:
+    """Return what the model predicts of the wanted entries."""
+    seen = drop_unseen(problem)  # of what is wanted it drops nothing
     imputing = pose_imputing(seen)
     fitted = build()
     imputing.fit(fitted)
     (prediction,) = imputing.check_predictions(getattr(fitted, method)(imputing.given), method)
-    is_seen = np.isin(problem.given.channels, seen.given.channels)
-
-    def spread(values: FrameByChannel) -> FrameByChannel:
-        full = np.full(problem.target.shape, np.nan)
-        full[:, is_seen] = values
-        return full
-
-    variance = None if prediction.variance is None else spread(prediction.variance)
-    return Prediction(spread(prediction.mean), variance)
+    variance = None if prediction.variance is None else prediction.variance[seen.target]
+    return PredictedEntries(prediction.mean[seen.target], variance)
 
 
 def _merge_windows(
-    problem: GapProblem, parts: list[tuple[slice, GapProblem, Prediction]]
+    problem: GapProblem, parts: list[tuple[slice, GapProblem, PredictedEntries]]
 ) -> PredictedEntries:
     """Return the wanted entries of all windows, in the order of those of the whole problem."""
+    if len(parts) == 1:
+        return parts[0][2]
     mean, variance = (np.full(problem.target.shape, np.nan) for _ in range(2))
     has_variance = all(prediction.variance is not None for _, _, prediction in parts)
     for frames, part, prediction in parts:
-        mean[frames][part.target] = prediction.mean[part.target]
+        mean[frames][part.target] = prediction.mean
         if prediction.variance is not None:
-            variance[frames][part.target] = prediction.variance[part.target]
+            variance[frames][part.target] = prediction.variance
     target = problem.target
     return PredictedEntries(mean[target], variance[target] if has_variance else None)
 

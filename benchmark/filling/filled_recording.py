@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -62,7 +63,7 @@ class FilledRecording:
     n_windows: Mapping[str, int]
     stopped: tuple[str, ...] = ()
 
-    @property
+    @cached_property
     def recording(self) -> Recording:
         """The recording with the filled entries; others may still be hidden."""
         values = self.request.given.values.copy()
@@ -153,11 +154,11 @@ def _number_kinds(problem: GapProblem) -> tuple[tuple[Kind, ...], Index]:
     """Return the kinds of gaps, and the number of that of each wanted entry (M,)."""
     by_gap = tell_kinds(problem)
     all_kinds = tuple(sorted({kind for kinds in by_gap.values() for kind in kinds}))
-    numbers = np.zeros(problem.target.shape, dtype=np.intp)
+    numbers = np.zeros(problem.target.shape, dtype=np.int32)
     for gap, kinds in by_gap.items():
         for kind, channels in kinds.items():
             numbers[gap.start : gap.stop, list(channels)] = all_kinds.index(kind)
-    return all_kinds, numbers[problem.target]
+    return all_kinds, numbers[problem.target].astype(np.intp)
 
 
 def _plan_models(

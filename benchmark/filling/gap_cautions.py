@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
-import pandas as pd
 
 from mocapbench.basics.words import format_count, join_names
 from mocapbench.benchmark.filling.choosing.choice import Choice
@@ -14,7 +13,10 @@ from mocapbench.benchmark.filling.choosing.scores import list_gaps
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gaps import Gap, mask_ends
 
-__all__ = ["FEW_VISIBLE", "GapCautions"]
+__all__ = ["FEW_VISIBLE", "GapCautions", "Jump"]
+
+Jump = tuple[int, int]
+"""The channel and the frame of a jump."""
 
 FEW_VISIBLE = 10
 """Visible frames of a channel below which nothing can be learnt from it."""
@@ -37,10 +39,10 @@ class GapCautions:
         self._longest = _find_longest_copies(filled.choice) if filled.choice else None
         self._n_visible = given.visible.sum(axis=0)
         self._at_ends = mask_ends(given.visible)
-        self._least = np.where(given.visible, given.values, np.inf).min(axis=0)
-        self._most = np.where(given.visible, given.values, -np.inf).max(axis=0)
+        self._least = given.values.min(axis=0, initial=np.inf, where=given.visible)
+        self._most = given.values.max(axis=0, initial=-np.inf, where=given.visible)
 
-    def list_of(self, gap: Gap, kind: Kind, jumps: pd.DataFrame) -> Iterator[str]:
+    def list_of(self, gap: Gap, kind: Kind, jumps: Sequence[Jump]) -> Iterator[str]:
         """Yield the cautions of a gap, of a kind, with jumps at its edges."""
         yield from self._warn_of_little(gap)
         yield from self._warn_of_length(gap, kind)
@@ -77,11 +79,10 @@ class GapCautions:
             name = self._channels[channels[worst]]
             yield f"extrapolates {name} by {100 * shares[worst]:.0f} % of its visible range"
 
-    def _warn_of_jumps(self, jumps: pd.DataFrame) -> Iterator[str]:
+    def _warn_of_jumps(self, jumps: Sequence[Jump]) -> Iterator[str]:
         """Yield where a gap jumps at an edge: further than between any visible frames."""
-        if len(jumps):
-            pairs = zip(jumps["channel"].tolist(), jumps["frame"].tolist(), strict=True)
-            places = [f"{self._channels[channel]} at frame {frame}" for channel, frame in pairs]
+        if jumps:
+            places = [f"{self._channels[channel]} at frame {frame}" for channel, frame in jumps]
             yield f"jumps in {join_names([*dict.fromkeys(places)], len(places))}"
 
 

@@ -97,6 +97,8 @@ def drop_unseen(problem: GapProblem) -> GapProblem:
 
 def select_channels(problem: GapProblem, kept: Mask) -> GapProblem:
     """Return the problem without channels (D,) that are not kept."""
+    if kept.all():
+        return problem
     names = [problem.given.channels[channel] for channel in np.flatnonzero(kept)]
     given, *train = (
         recording if len(names) == len(recording.channels) else recording.select(names)
@@ -109,6 +111,8 @@ def cut_blank_ends(problem: GapProblem) -> GapProblem:
     """Return the problem without frames at its ends in which nothing is visible or wanted."""
     needed = np.asarray(problem.given.visible.any(axis=1) | problem.target.any(axis=1))
     kept = ~mask_ends(needed[:, np.newaxis])[:, 0]
+    if kept.all():
+        return problem
     return GapProblem(problem.given.frames(kept), problem.target[kept], problem.train)
 
 

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import shlex
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping, Sequence
 from glob import escape
 
 import numpy as np
 import pandas as pd
 
+from mocapbench.basics.arrays import Index
 from mocapbench.benchmark.filling.choosing.choice import Choice
 from mocapbench.benchmark.filling.choosing.kinds import Kind
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
-from mocapbench.benchmark.filling.gap_cautions import GapCautions
+from mocapbench.benchmark.filling.gap_cautions import GapCautions, Jump
 from mocapbench.benchmark.filling.gaps import Gap, count_entries, find_gaps
 from mocapbench.benchmark.filling.jumps import measure_edges
 from mocapbench.benchmark.filling.requests.names import match_pattern, name_owners
@@ -53,7 +54,10 @@ def tabulate_gaps(filled: FilledRecording) -> pd.DataFrame:
         rules of `NamedEntries` that leave it open, with commas between.
     """
     given, rows = filled.request.given, [*_find_rows(filled)]
-    edges = _group_edges(rows, measure_edges(filled.recording, filled.request.target), filled)
+    edges = measure_edges(filled.recording, filled.request.target)
+    numbers = _number_rows(rows, edges, filled)
+    largest = edges["relative"].groupby(numbers).max().reindex(range(len(rows)))
+    jumps = _group_jumps(edges[edges["jumps"]], numbers)
     cautions = GapCautions(filled)
     table = [
         (
@@ -65,11 +69,11 @@ def tabulate_gaps(filled: FilledRecording) -> pd.DataFrame:
             str(kind),
             model,
             *_expect_error(filled.choice, kind, model),
-            of_row["relative"].max(),
-            _BETWEEN.join(cautions.list_of(gap, kind, of_row[of_row["jumps"]])),
+            jump,
+            _BETWEEN.join(cautions.list_of(gap, kind, jumps[number])),
             _compose_rules(filled.request, gap),
         )
-        for (gap, kind, model), of_row in zip(rows, edges, strict=True)
+        for number, ((gap, kind, model), jump) in enumerate(zip(rows, largest, strict=True))
     ]
     return pd.DataFrame(table, columns=_COLUMNS)
 
@@ -142,15 +146,21 @@ def _find_rows(filled: FilledRecording) -> list[_Row]:
     return sorted(rows, key=lambda row: (row[0].start, row[0].channels))
 
 
-def _group_edges(
-    rows: Sequence[_Row], edges: pd.DataFrame, filled: FilledRecording
-) -> Iterator[pd.DataFrame]:
-    """Yield the edges of each row."""
-    numbers = np.full(filled.request.target.shape, -1)
+def _number_rows(rows: Sequence[_Row], edges: pd.DataFrame, filled: FilledRecording) -> Index:
+    """Return the number of the row that each edge (K,) is of."""
+    numbers = np.full(filled.request.target.shape, -1, dtype=np.int32)
     for number, (gap, _, _) in enumerate(rows):
         numbers[gap.start : gap.stop, list(gap.channels)] = number
-    of_edges = numbers[edges["frame"], edges["channel"]]
-    return (edges[of_edges == number] for number in range(len(rows)))
+    return np.asarray(numbers[edges["frame"], edges["channel"]], dtype=np.intp)
+
+
+def _group_jumps(jumps: pd.DataFrame, numbers: Index) -> Mapping[int, list[Jump]]:
+    """Return the channel and the frame of each jump, by the row that it is of."""
+    of_row: dict[int, list[Jump]] = defaultdict(list)
+    pairs = zip(jumps["channel"].tolist(), jumps["frame"].tolist(), strict=True)
+    for number, pair in zip(numbers[jumps.index].tolist(), pairs, strict=True):
+        of_row[number].append(pair)
+    return of_row
 
 
 def _name_gap(channels: Sequence[str], units: Sequence[str], gap: Gap) -> str:

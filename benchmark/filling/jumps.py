@@ -6,12 +6,14 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.basics.arrays import Array
-from mocapbench.datasets import Mask, Recording
+from mocapbench.datasets import FrameByChannel, Mask, Recording
 
 __all__ = ["find_jumps", "measure_edges"]
 
 _RELATIVE = 1e-6
 """Steps below this share of the values of a channel's unit, if it has one, are rounding."""
+_BLOCK = 4096
+"""Frames whose steps are computed at once, so that long recordings take no more memory."""
 _LONGER = 1.25
 """How many times as long as every visible step a jump is: the longest of few says little."""
 
@@ -47,14 +49,13 @@ def measure_edges(recording: Recording, target: Mask) -> pd.DataFrame:
         visible frames of the channel, both in its unit, ``relative``, the size by the largest, or
         by rounding where the channel stands still, and whether it ``jumps``.
     """
-    steps = np.abs(np.diff(recording.values, axis=0))
-    visible = recording.visible & ~target
+    values, visible = recording.values, recording.visible & ~target
     within = visible[1:] & visible[:-1]
-    largest = np.where(within, steps, 0.0).max(axis=0, initial=0.0)
+    largest = _find_largest_steps(values, within)
     is_edge = (target[1:] & visible[:-1]) | (visible[1:] & target[:-1])
     rounding = _find_rounding(recording, visible)
     n, c = np.nonzero(is_edge & within.any(axis=0))
-    size, scale = steps[n, c], np.maximum(largest, rounding)[c]
+    size, scale = np.abs(values[n + 1, c] - values[n, c]), np.maximum(largest, rounding)[c]
     edges = {
         "frame": n + target[n + 1, c],
         "channel": c,
@@ -70,10 +71,21 @@ def measure_edges(recording: Recording, target: Mask) -> pd.DataFrame:
     return pd.DataFrame(edges).iloc[order].reset_index(drop=True)
 
 
+def _find_largest_steps(values: FrameByChannel, within: Mask) -> Array:
+    """Return the largest of the steps of each channel (D,) where ``within``, 0 if there is none."""
+    largest = np.zeros(values.shape[1])
+    for at in range(0, len(within), _BLOCK):
+        steps = np.abs(np.diff(values[at : at + _BLOCK + 1], axis=0))
+        most = steps.max(axis=0, initial=0.0, where=within[at : at + _BLOCK])
+        largest = np.maximum(largest, most)
+    return largest
+
+
 def _find_rounding(recording: Recording, visible: Mask) -> Array:
     """Return the step (D,) below which a channel does not move but for rounding."""
     alike = np.array(
         [unit or name for unit, name in zip(recording.units, recording.channels, strict=True)]
     )
-    sizes = np.where(visible, np.abs(recording.values), 0.0).max(axis=0, initial=0.0)
+    least = recording.values.min(axis=0, initial=0.0, where=visible)
+    sizes = np.maximum(recording.values.max(axis=0, initial=0.0, where=visible), -least)
     return _RELATIVE * np.array([sizes[alike == one].max() for one in alike])

@@ -122,14 +122,17 @@ def reserve_outputs(outputs: OutputPaths) -> Iterator[OutputPaths]:
 
 def _hold_nearest(values: FrameByChannel) -> FrameByChannel:
     """Return values (N, D) with the nearest visible one in place of each NaN, or else 0."""
-    result, frames = np.zeros_like(values), np.arange(len(values))
-    for channel, column in enumerate(values.T):
-        (seen,) = np.nonzero(~np.isnan(column))
+    result = values.copy()
+    for column in result.T:
+        hidden = np.isnan(column)
+        seen, frames = np.flatnonzero(~hidden), np.flatnonzero(hidden)
         if len(seen):
-            after = seen[np.searchsorted(seen, frames).clip(max=len(seen) - 1)]
-            before = seen[(np.searchsorted(seen, frames, "right") - 1).clip(min=0)]
+            place = np.searchsorted(seen, frames)
+            after, before = seen[place.clip(max=len(seen) - 1)], seen[(place - 1).clip(min=0)]
             nearer = np.abs(frames - before) <= np.abs(after - frames)
-            result[:, channel] = column[np.where(nearer, before, after)]
+            column[frames] = column[np.where(nearer, before, after)]
+        else:
+            column[:] = 0.0
     return result
 
 

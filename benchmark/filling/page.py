@@ -121,7 +121,12 @@ def _choose_gaps(
     """
     per_gap = min(_CHANNELS_PER_GAP, max(len(gap.channels) for gap in gaps))
     count = min(len(gaps), _MOST_CURVES // per_gap)
-    worst = [n for n, gap in enumerate(gaps) if len(_find_channels(jumps[:1], gap))]
+    worst = [
+        n
+        for frame, channel in zip(jumps["frame"][:1], jumps["channel"][:1], strict=True)
+        for n, gap in enumerate(gaps)
+        if gap.start <= frame < gap.stop and channel in gap.channels
+    ]
     longest = max(range(len(gaps)), key=lambda n: len(gaps[n]))
     named = {*worst, longest}
     n_even = count - len(named) if count < len(gaps) else count

@@ -107,7 +107,8 @@ class Workers:
     def keep(self, problem: GapProblem) -> Path:
         """Write a problem where the workers read it, and return the file."""
         path = self._folder / f"problem-{next(self._numbers)}"
-        path.write_bytes(pickle.dumps(problem, protocol=pickle.HIGHEST_PROTOCOL))
+        with path.open("wb") as file:
+            pickle.dump(problem, file, protocol=pickle.HIGHEST_PROTOCOL)
         return path
 
     def submit(
@@ -189,5 +190,6 @@ def _explain_death(exit_code: int, seconds: float) -> FillAttempt:
 
 @lru_cache(maxsize=2)
 def _read_problem(path: Path) -> GapProblem:
-    problem: GapProblem = pickle.loads(path.read_bytes())
+    with path.open("rb") as file:
+        problem: GapProblem = pickle.load(file)
     return problem

@@ -42,14 +42,14 @@ def find_spikes(paths: MotionPaths) -> pd.DataFrame:
         A row each with the kind ``spike`` or ``jump``. A spike lasts up to three frames, or those
         between a leap and a gap. The frames of a jump are the two that it is between.
     """
-    excess, leaps = paths.excess, find_leaps(paths, _BEYOND)
-    lone = leaps & _find_lone(excess, _LONE_FLOOR * paths.least_leaps)
+    leaps = find_leaps(paths, _BEYOND)
+    lone = leaps & _find_lone(paths.sizes, _LONE_FLOOR * paths.least_leaps)
     visible = ~np.isnan(paths.positions[..., 0])
     rows = [
         (kind, (paths.names[m],), start, stop, size)
         for m in np.flatnonzero(leaps.any(axis=0)).tolist()
         for kind, start, stop, size in _tell_spikes(
-            excess[:, m], leaps[:, m], lone[:, m], visible[:, m]
+            paths.measure_excess(np.array([m]))[:, 0], leaps[:, m], lone[:, m], visible[:, m]
         )
     ]
     return tabulate_findings(rows)
@@ -57,13 +57,12 @@ def find_spikes(paths: MotionPaths) -> pd.DataFrame:
 
 def find_leaps(paths: MotionPaths, beyond: float) -> Mask:
     """Return which steps (N - 1, M) exceed the median by so many times what is usual."""
-    sizes = np.linalg.norm(paths.excess, axis=2)
-    return np.asarray(sizes > np.maximum(beyond * paths.usual_excess, paths.least_leaps))
+    return np.asarray(paths.sizes > np.maximum(beyond * paths.usual_sizes, paths.least_leaps))
 
 
-def _find_lone(excess: Array, floor: Array) -> Mask:
-    """Return which steps (N - 1, M) exceed floors (M,), and those beside them by far."""
-    sizes = np.pad(np.nan_to_num(np.linalg.norm(excess, axis=2)), ((1, 1), (0, 0)))
+def _find_lone(sizes: Array, floor: Array) -> Mask:
+    """Return which sizes of steps (N - 1, M) exceed floors (M,), and those beside them by far."""
+    sizes = np.pad(np.nan_to_num(sizes), ((1, 1), (0, 0)))
     beside = np.maximum(sizes[:-2], sizes[2:])
     return np.asarray(sizes[1:-1] > np.maximum(_LONE * beside, floor))
 

@@ -7,9 +7,10 @@ from functools import cached_property
 
 import numpy as np
 import pandas as pd
+from numpy.lib.stride_tricks import sliding_window_view
 
 from mocapbench.baselines.common.markers import marker_places, markers_of
-from mocapbench.basics.arrays import Array, Mask
+from mocapbench.basics.arrays import Array, Index, Mask
 from mocapbench.datasets import Recording, frame_rate
 from mocapbench.datasets.formats.missing_rows import count_missing_rows
 
@@ -30,6 +31,8 @@ _SHARE, _SHARE_OF_CHANNEL = 0.006, 0.1
 how far it moves."""
 _LEAST_ANGLES = {"deg": 1.0, "rad": np.pi / 180}
 """The least leap of angles, in their unit, as some hardly move."""
+_BLOCK = 4096
+"""Frames that are looked at together, so that long recordings take no more memory."""
 _MOST = 0.1, 0.9
 """Quantiles between which a channel mostly is."""
 
@@ -60,35 +63,54 @@ class MotionPaths:
     missing_rows: Mask
 
     @cached_property
-    def steps(self) -> Array:
-        """How far each frame is from the one before (N - 1, M, A); NaN where rows are missing."""
-        steps = np.diff(self.positions, axis=0)
+    def extent(self) -> float:
+        """How far apart the markers are, see `measure_extent`."""
+        return measure_extent(self.positions)
+
+    def take_steps(self, frames: Index, markers: Index) -> Array:
+        """Return how far markers go from frames to the next (..., A); NaN where rows are missing.
+
+        Only what is asked for is computed, as a long recording has millions of steps.
+        """
+        steps = self.positions[frames + 1, markers] - self.positions[frames, markers]
+        return np.where(self.missing_rows[frames][..., None], np.nan, steps)
+
+    def measure_excess(self, markers: Index) -> Array:
+        """Return how much steps of m markers differ from the median around each (N - 1, m, A)."""
+        steps = np.diff(self.positions[:, markers], axis=0)
         steps[self.missing_rows] = np.nan
-        return steps
+        return np.asarray(steps - _take_rolling_median(steps))
 
     @cached_property
-    def excess(self) -> Array:
-        """By how much each step differs from the median of those around it (N - 1, M, A)."""
-        n_steps, n_markers, n_axes = self.steps.shape
-        columns = pd.DataFrame(self.steps.reshape(n_steps, n_markers * n_axes))
-        usual = columns.rolling(_STEPS, min_periods=1, center=True).median()
-        return np.asarray(self.steps - usual.to_numpy().reshape(self.steps.shape))
+    def sizes(self) -> Array:
+        """The size of the excess of each step (N - 1, M)."""
+        sizes = np.empty((len(self.missing_rows), len(self.names)))
+        for marker in range(len(self.names)):
+            excess = self.measure_excess(np.array([marker]))
+            sizes[:, marker] = np.linalg.norm(excess[:, 0], axis=1)
+        return sizes
 
     @cached_property
-    def usual_excess(self) -> Array:
-        """The size of the excess that most steps around each stay below (N - 1, M)."""
+    def usual_sizes(self) -> Array:
+        """The size that most steps around each stay below (N - 1, M).
+
+        It is NaN for markers of which no step is large enough to be a leap.
+        """
         half = max(_FRAMES, int(np.nan_to_num(self.rate) * _SECONDS))
-        sizes = pd.DataFrame(np.linalg.norm(self.excess, axis=2))
-        rolling = sizes.rolling(2 * half + 1, min_periods=1, center=True)
-        return np.asarray(rolling.quantile(_QUANTILE))
+        usual = np.full(self.sizes.shape, np.nan)
+        large = np.flatnonzero((self.sizes > self.least_leaps).any(axis=0))
+        rolling = pd.DataFrame(self.sizes[:, large]).rolling(
+            2 * half + 1, min_periods=1, center=True
+        )
+        usual[:, large] = rolling.quantile(_QUANTILE)
+        return usual
 
 
 def find_marker_paths(recording: Recording) -> MotionPaths:
     """Return the paths of the markers of a recording."""
     names = tuple(markers_of(recording.channels, recording.units))
     positions = recording.values[:, marker_places(recording.channels, recording.units)]
-    hidden = np.isnan(positions).any(axis=2, keepdims=True)
-    positions = np.where(hidden, np.nan, positions)
+    positions[np.isnan(positions).any(axis=2)] = np.nan
     least_leaps = np.full(len(names), _SHARE * measure_extent(positions))
     missing = count_missing_rows(len(positions), None, recording.times) > 0
     return MotionPaths(names, positions, least_leaps, frame_rate(recording), missing)
@@ -118,11 +140,41 @@ def measure_extent(positions: Array) -> float:
 
     Of a person it is about 1.9 m.
     """
-    frames = ~np.isnan(positions[..., 0]).all(axis=1)
-    if not frames.any():
+    if not positions.size:
         return 0.0
-    low, high = np.nanmin(positions[frames], axis=1), np.nanmax(positions[frames], axis=1)
-    return float(np.median(np.linalg.norm(high - low, axis=1)))
+    sizes = np.concatenate(
+        [_measure_boxes(positions[at : at + _BLOCK]) for at in range(0, len(positions), _BLOCK)]
+    )
+    return float(np.median(sizes)) if len(sizes) else 0.0
+
+
+def _measure_boxes(positions: Array) -> Array:
+    """Return the diagonal of the box around markers (n, M, 3), in frames in which any is seen."""
+    seen = positions[~np.isnan(positions[..., 0]).all(axis=1)]
+    low, high = np.fmin.reduce(seen, axis=1), np.fmax.reduce(seen, axis=1)  # ignore NaN
+    return np.asarray(np.linalg.norm(high - low, axis=1))
+
+
+def _take_rolling_median(steps: Array) -> Array:
+    """Return the median of the steps around each (N, m, A); NaN where none is known.
+
+    pandas has it, and takes three times as long.
+    """
+    if not len(steps):
+        return steps
+    half = ((_STEPS // 2,) * 2, (0, 0), (0, 0))
+    windows = sliding_window_view(np.pad(steps, half, constant_values=np.nan), _STEPS, axis=0)
+    medians = np.empty_like(steps)
+    for at in range(0, len(steps), _BLOCK):
+        ordered = np.sort(windows[at : at + _BLOCK])  # NaN last
+        medians[at : at + _BLOCK] = ordered[..., _STEPS // 2]
+        some = np.isnan(ordered[..., -1])
+        known = ordered[some]
+        count = (~np.isnan(known)).sum(axis=1)
+        middle = np.stack([np.maximum(count - 1, 0) // 2, count // 2], axis=1)
+        pair = np.take_along_axis(known, middle, axis=1)
+        medians[at : at + _BLOCK][some] = pair.sum(axis=1) / 2.0
+    return medians
 
 
 def _choose_least_leap(values: Array, least: float) -> float:

@@ -10,7 +10,7 @@ import pandas as pd
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
-from mocapbench.benchmark.recording_checks.paths import MotionPaths, measure_extent
+from mocapbench.benchmark.recording_checks.paths import MotionPaths
 
 __all__ = ["find_segment_jumps"]
 
@@ -35,7 +35,7 @@ def find_segment_jumps(paths: MotionPaths) -> pd.DataFrame:
     DataFrame
         A row each with the kind ``segment``; the size is the most by which the length differs.
     """
-    least = _FLOOR * measure_extent(paths.positions)
+    least = _FLOOR * paths.extent
     rows = []
     for one, other, differences, spread in _find_segments(paths.positions):
         wrong = differences > max(_BEYOND * spread, least)

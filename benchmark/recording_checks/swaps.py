@@ -18,7 +18,7 @@ from mocapbench.basics.arrays import Array, Index
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
 from mocapbench.benchmark.recording_checks.leaps import find_leaps
-from mocapbench.benchmark.recording_checks.paths import MotionPaths, measure_extent
+from mocapbench.benchmark.recording_checks.paths import MotionPaths
 
 __all__ = ["find_swaps"]
 
@@ -33,6 +33,8 @@ _STILL, _APART = 0.001, 0.006
 """The least that is usual, and how far apart places are at least: as shares of the extent."""
 _PER_OCTAVE = 2
 """Of numbers of frames that count as one."""
+_TOGETHER = 2000
+"""Pairs of breaks that are compared at once."""
 _TELLING = 6
 """Other markers whose distances are compared: those that tell the two apart best."""
 _GAIN = 1.0
@@ -74,7 +76,7 @@ def _find_trades(paths: MotionPaths) -> Iterator[tuple[int, int, int, float]]:
     """Yield which two markers trade places, the first frame after it, and how far apart."""
     breaks = _find_breaks(paths)
     marker, _, first = breaks
-    usual, apart = _measure_usual(paths, *breaks), _APART * measure_extent(paths.positions)
+    usual, apart = _measure_usual(paths, *breaks), _APART * paths.extent
     for one, other in _pair_breaks(*breaks):
         gains = np.minimum(
             _compare_misses(paths, breaks, one, other, usual),
@@ -131,8 +133,9 @@ def _measure_distances(paths: MotionPaths, places: Array, frames: Index) -> Arra
 def _measure_speed(paths: MotionPaths, marker: Index, frames: Index) -> Array:
     """Return the median (K, 3) of few steps from a frame on; 0 where none of them is visible."""
     near = frames[:, None] + np.arange(_NEAR)
-    inside = (near >= 0) & (near < len(paths.steps))
-    steps = paths.steps[near.clip(0, len(paths.steps) - 1), marker[:, None]]
+    last = len(paths.missing_rows) - 1
+    inside = (near >= 0) & (near <= last)
+    steps = paths.take_steps(near.clip(0, last), marker[:, None])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # of markers of which none is visible
         medians = np.nanmedian(np.where(inside[..., None], steps, np.nan), axis=1)
@@ -153,7 +156,7 @@ def _measure_usual(paths: MotionPaths, marker: Index, last: Index, first: Index)
         same = np.full(len(starts), one)
         misses = _measure_misses(paths, same, starts, same, starts + span)
         usual[(marker == one) & (spans == span)] = _take_quantile(misses, _QUANTILE)
-    return np.maximum(usual, _STILL * measure_extent(paths.positions))
+    return np.maximum(usual, _STILL * paths.extent)
 
 
 def _take_quantile(values: Array, quantile: float) -> Array:
@@ -182,9 +185,17 @@ def _find_breaks(paths: MotionPaths) -> Breaks:
 
 
 def _pair_breaks(marker: Index, last: Index, first: Index) -> Iterator[tuple[Index, Index]]:
-    """Yield breaks with those of other markers that overlap them and do not come before."""
-    for k in range(len(marker)):
-        others = np.arange(k + 1, np.searchsorted(last, first[k]))
-        others = others[marker[others] != marker[k]]
-        if len(others):
-            yield np.full(len(others), k), others
+    """Yield breaks with those of other markers that overlap them and do not come before.
+
+    They come in groups: one by one, thousands take minutes, and all at once, too much memory.
+    """
+    breaks = np.arange(len(marker))
+    counts = np.maximum(np.searchsorted(last, first) - breaks - 1, 0)
+    groups = np.cumsum(counts) // _TOGETHER
+    for group in np.split(breaks, np.flatnonzero(np.diff(groups)) + 1):
+        one = np.repeat(group, counts[group])
+        starts = np.repeat(np.cumsum(counts[group]) - counts[group], counts[group])
+        other = one + 1 + np.arange(len(one)) - starts
+        apart = marker[one] != marker[other]
+        if apart.any():
+            yield one[apart], other[apart]

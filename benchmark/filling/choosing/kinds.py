@@ -72,7 +72,7 @@ def _tell_extent(hidden: Mask, markers: Index) -> str:
     """Return how much is hidden at once in most frames of a mask (n, D)."""
     if np.mean(hidden.all(axis=1)) > 0.5:
         return "whole frames"
-    count = np.zeros(len(hidden))
-    for marker in range(int(markers.max()) + 1):
-        count += hidden[:, markers == marker].any(axis=1)
+    order = np.argsort(markers, kind="stable")
+    starts = np.flatnonzero(np.diff(markers[order], prepend=-1))
+    count = np.logical_or.reduceat(hidden[:, order], starts, axis=1).sum(axis=1)
     return "one marker or joint" if np.median(count) <= 1 else "several markers or joints"

@@ -59,6 +59,11 @@ def match_pattern(channels: Sequence[str], pattern: str) -> Mask:
     >>> match_pattern(channels, "*.ry").tolist()
     [False, False, False, False, True]
     """
+    return _match_names(tuple(channels), pattern).copy()
+
+
+@lru_cache(maxsize=512)  # thousands of gaps may be of a few hundred markers
+def _match_names(channels: tuple[str, ...], pattern: str) -> Mask:
     pairs = zip(channels, name_owners(channels), strict=True)
     return np.array(
         [any(fnmatchcase(name, pattern) for name in pair) for pair in pairs], dtype=bool

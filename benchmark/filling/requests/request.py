@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -122,7 +123,7 @@ class FillRequest:
         kept = self.target & ~mask_gaps(self.left_by_hand, self.target.shape)
         return replace(self, target=kept, models=self.models[self.kept])
 
-    @property
+    @cached_property
     def gaps(self) -> tuple[Gap, ...]:
         """The gaps to fill."""
         return find_gaps(self.target)

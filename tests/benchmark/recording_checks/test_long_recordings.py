@@ -1,0 +1,90 @@
+"""Laws of what long recordings, and those with thousands of breaks, cost to check."""
+
+import tracemalloc
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from mocapbench.benchmark.recording_checks import paths, swaps
+from mocapbench.benchmark.recording_checks.file_check import find_faults
+from mocapbench.datasets import Recording
+
+
+def swinging(n_frames, n_markers):
+    """Return markers that swing, each with a gap in every second."""
+    rng, times = np.random.default_rng(0), np.arange(n_frames) / 120
+    shape = (n_frames, n_markers, 3)
+    frequencies, phases = rng.uniform(0.5, 1.5, shape[1:]), rng.uniform(0, 6, shape[1:])
+    values = 150 * np.sin(2 * np.pi * frequencies * times[:, None, None] + phases)
+    values += rng.uniform(200, 1800, shape[1:]) + rng.normal(0, 0.1, shape)
+    for marker in range(n_markers):
+        for start in range(60, n_frames - 60, 120):
+            first = start + int(rng.integers(40))
+            values[first : first + 15, marker] = np.nan
+    names = [f"M{marker}.{axis}" for marker in range(n_markers) for axis in "xyz"]
+    return Recording("long", times, values.reshape(n_frames, -1), names, ["mm"] * len(names))
+
+
+@pytest.mark.parametrize("n_steps", [1, 4, 9, 300])
+def test_the_median_of_steps_around_each_is_that_of_pandas(n_steps, monkeypatch):
+    monkeypatch.setattr(paths, "_BLOCK", 64)
+    rng = np.random.default_rng(0)
+    steps = np.where(rng.random((n_steps, 5, 3)) < 0.3, np.nan, rng.normal(size=(n_steps, 5, 3)))
+    columns = pd.DataFrame(steps.reshape(n_steps, 15))
+    expected = columns.rolling(9, min_periods=1, center=True).median()
+    found = paths._take_rolling_median(steps).reshape(n_steps, 15)
+    np.testing.assert_array_equal(found, expected.to_numpy())
+
+
+def test_the_extent_is_the_same_whichever_frames_are_looked_at_together(monkeypatch):
+    positions = swinging(1000, 6).values.reshape(1000, 6, 3)
+    whole = paths.measure_extent(positions)
+    monkeypatch.setattr(paths, "_BLOCK", 7)
+    assert paths.measure_extent(positions) == whole
+
+
+@pytest.mark.parametrize("together", [1, 3, 1000])
+def test_each_pair_of_breaks_that_overlap_is_compared_once(together, monkeypatch):
+    monkeypatch.setattr(swaps, "_TOGETHER", together)
+    rng = np.random.default_rng(0)
+    last = np.sort(rng.integers(0, 60, 40))
+    marker, first = rng.integers(0, 4, 40), last + rng.integers(1, 9, 40)
+    groups = [*swaps._pair_breaks(marker, last, first)]
+    found = [pair for one, other in groups for pair in zip(one, other, strict=True)]
+    assert sorted(found) == [
+        (k, other)
+        for k in range(40)
+        for other in range(k + 1, 40)
+        if last[other] < first[k] and marker[other] != marker[k]
+    ]
+
+
+def test_breaks_are_compared_many_at_a_time(monkeypatch):
+    calls = []
+    given = swaps._compare_misses
+    monkeypatch.setattr(
+        swaps, "_compare_misses", lambda *args: calls.append(len(args[2])) or given(*args)
+    )
+    find_faults(swinging(6000, 8))
+    assert sum(calls) > 100 * len(calls)
+
+
+def test_steps_far_below_a_leap_are_not_compared_with_those_around_them():
+    given = swinging(600, 4)
+    still = paths.find_marker_paths(given)
+    assert np.isnan(still.usual_sizes).all()
+    values = given.values.copy()
+    values[300, :3] += 400.0
+    leaping = paths.find_marker_paths(given.with_values(values))
+    assert np.isfinite(leaping.usual_sizes).any(axis=0).tolist() == [True, False, False, False]
+
+
+def test_the_memory_of_a_check_is_a_few_times_that_of_the_recording():
+    recording = swinging(40_000, 10)
+    find_faults(recording.frames(np.arange(500)))  # what is loaded at first use
+    tracemalloc.start()
+    find_faults(recording)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 3.5 * recording.values.nbytes
