@@ -6,6 +6,7 @@ from .catalogue import (
     metric_entry,
     model_entry,
     task_entry,
+    task_summary,
 )
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
@@ -177,5 +178,6 @@ __all__ = [
     "state_lines",
     "state_table",
     "task_entry",
+    "task_summary",
     "with_folders",
 ]

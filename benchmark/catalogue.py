@@ -19,7 +19,19 @@ __all__ = [
     "metric_entry",
     "model_entry",
     "task_entry",
+    "task_summary",
 ]
+
+
+def task_summary(name: str) -> Mapping[str, Any]:
+    """Return what a table says of a task, without its entrants, which are many models to import."""
+    task = TASKS.get(name)
+    return {
+        "name": name,
+        "title": task.page.title,
+        "cases": [case.name for case in task.cases],
+        "reference": task.page.reference,
+    }
 
 
 def task_entry(name: str) -> Mapping[str, Any]:

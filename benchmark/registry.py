@@ -14,15 +14,17 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import cached_property
 from importlib.metadata import EntryPoint
-from typing import Any, Generic, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
-from mocapbench.baselines import Model
 from mocapbench.benchmark.entry_points import find_entry_points
 from mocapbench.benchmark.errors import UnregisteredNameError, UsageError
 from mocapbench.benchmark.messages import reason
-from mocapbench.benchmark.tasks.base import Task
-from mocapbench.datasets import Format, Library
-from mocapbench.metrics import Metric
+
+if TYPE_CHECKING:  # most commands need names alone, and models take long to import
+    from mocapbench.baselines import Model
+    from mocapbench.benchmark.tasks.base import Task
+    from mocapbench.datasets import Format, Library
+    from mocapbench.metrics import Metric
 
 __all__ = [
     "CALIBRATIONS",
@@ -121,7 +123,7 @@ class Registry(Generic[T]):
             ) from error
 
 
-Calibration = Callable[[Any], Model]
+Calibration = Callable[[Any], "Model"]
 """From a model to one with calibrated variances, such as `mocapbench.baselines.Calibrated`."""
 
 CALIBRATIONS: Registry[Calibration] = Registry("calibration", "mocapbench.calibrations")
@@ -131,7 +133,7 @@ UNCALIBRATED = "-uncalibrated"
 """The end of the name under which a model takes part without its calibration."""
 
 
-class _Models(Registry[type[Model]]):
+class _Models(Registry["type[Model]"]):
     """Models by name; one with a calibration has a second name, which is not listed."""
 
     def get(self, name: str) -> type[Model]:

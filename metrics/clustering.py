@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from sklearn.metrics import adjusted_rand_score
-from sklearn.metrics.cluster import contingency_matrix
-
 from mocapbench.metrics.base import Direction, Score, metric
 from mocapbench.metrics.outcomes.clustering import Clustering
 
@@ -64,6 +61,9 @@ def purity(outcome: Clustering) -> Score:
     >>> purity(Clustering(truth=styles, labels=np.array([1, 1, 1, 0]))).value
     1.0
     """
+    # Imported where it is used, as it takes longer than all there is to say of the metrics.
+    from sklearn.metrics.cluster import contingency_matrix  # noqa: PLC0415
+
     counts = contingency_matrix(outcome.truth, outcome.labels)  # classes are rows
     return Score(float(counts.max(axis=0).sum() / counts.sum()))
 
@@ -121,4 +121,6 @@ def adjusted_rand(outcome: Clustering) -> Score:
     >>> adjusted_rand(Clustering(truth=styles, labels=np.array([1, 1, 1, 0]))).value
     1.0
     """
+    from sklearn.metrics import adjusted_rand_score  # noqa: PLC0415
+
     return Score(float(adjusted_rand_score(outcome.truth, outcome.labels)))

@@ -54,8 +54,8 @@ def list_registered(
     """
     load_plugins(plugin)
     registry, describe, describe_fully, columns = _listing(kind)
-    every = map(describe, registry.names())
-    entries = [*(map(describe_fully, names) if names else every)]
+    describe = describe_fully if names or as_json else describe
+    entries = [*map(describe, names or registry.names())]
     if as_json:
         typer.echo(json.dumps(entries, indent=1, default=str))
         return
@@ -84,7 +84,7 @@ def _listing(
     match kind:
         case ListedKind.TASKS:
             columns = {"title": "title", "cases": "cases", "reference": "from"}
-            return bench.TASKS, bench.task_entry, bench.task_entry, columns
+            return bench.TASKS, bench.task_summary, bench.task_entry, columns
         case ListedKind.MODELS:
             columns = {"summary": "what it is", "abilities": "abilities", "needs": "needs"}
             return bench.MODELS, bench.model_entry, bench.entrant_entry, columns

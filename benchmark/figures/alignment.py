@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-from sklearn.decomposition import PCA
 
-from mocapbench.baselines import StatePath
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number
 from mocapbench.benchmark.problems.cluster import ClusterProblem, Clusters
 from mocapbench.reports import Axes, Curve, Illustration
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import StatePath
 
 __all__ = ["draw_alignments"]
 
@@ -48,6 +50,9 @@ def _panel(
 
 def _second_component(recordings: Sequence[Array]) -> list[Array]:
     """Return the second principal component (N_k,) of each of ``recordings`` (N_k, D)."""
+    # Imported where it is used: a task names this figure, and lists of tasks draw none.
+    from sklearn.decomposition import PCA  # noqa: PLC0415
+
     analysis = PCA(n_components=2, svd_solver="full").fit(np.concatenate(recordings))
     return [analysis.transform(values)[:, 1] for values in recordings]
 

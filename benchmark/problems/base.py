@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from mocapbench.baselines import Model
 from mocapbench.baselines.declarations.needs import list_given
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.datasets import Recording, ToyProcess
 from mocapbench.metrics import Clustering, Imputation, Recovery, Synthesis
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Model
 
 __all__ = ["InvalidPredictionError", "Problem"]
 

@@ -6,14 +6,17 @@ After Pan and Torresani 2009 (HLM), §4.2 and Figure 3.
 from __future__ import annotations
 
 from itertools import combinations
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines import Blender
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import InvalidPredictionError
 from mocapbench.datasets import FrameByChannel
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Blender
 
 __all__ = ["N_FRAMES", "blend_of"]
 

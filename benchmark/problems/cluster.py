@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines import Clusterer
 from mocapbench.benchmark.problems.arrays import Arrays, select_arrays
 from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
 from mocapbench.benchmark.problems.blending import blend_of
 from mocapbench.benchmark.problems.cycle import alignment_of
 from mocapbench.datasets import Skeleton
 from mocapbench.metrics import Clustering
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Clusterer
 
 __all__ = ["ClusterProblem", "Clusters"]
 

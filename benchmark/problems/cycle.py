@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mocapbench.baselines import Aligner
 from mocapbench.benchmark.problems.arrays import Arrays, with_numbers
 from mocapbench.benchmark.problems.base import InvalidPredictionError
 from mocapbench.datasets import Recording
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Aligner
 
 __all__ = ["alignment_of"]
 

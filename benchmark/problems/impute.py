@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines import FrameImputer, Prediction
 from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number, with_numbers
 from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
 from mocapbench.benchmark.problems.body import Body
@@ -20,9 +19,12 @@ from mocapbench.datasets import FrameByChannel, Mask, Recording
 from mocapbench.metrics import Imputation, ImputedPoses
 from mocapbench.metrics.entries import mean_over, variance_over
 
+if TYPE_CHECKING:
+    from mocapbench.baselines import FrameImputer, Prediction
+
 __all__ = ["ImputeProblem", "Predictions"]
 
-Predictions = tuple[Prediction, ...]
+Predictions = tuple["Prediction", ...]
 """One for each recording to fill, in order; all have a variance, or none has."""
 
 
@@ -101,6 +103,9 @@ class ImputeProblem(Problem[Predictions]):
         InvalidPredictionError
             If it is no list of predictions that fit the recordings given.
         """
+        # Imported where it is used: who lists tasks solves none, and models take long to import.
+        from mocapbench.baselines import Prediction  # noqa: PLC0415
+
         wanted = [Prediction] * len(self.given)
         if not isinstance(predictions, list) or list(map(type, predictions)) != wanted:
             raise InvalidPredictionError(
@@ -138,6 +143,8 @@ class ImputeProblem(Problem[Predictions]):
 
     def from_arrays(self, arrays: Arrays) -> Predictions:
         """Return the solution that `to_arrays` turned into ``arrays``."""
+        from mocapbench.baselines import Prediction  # noqa: PLC0415
+
         means, variances = arrays_by_number("mean", arrays), arrays_by_number("variance", arrays)
         return tuple(map(Prediction, means, variances or (None,) * len(means)))
 
@@ -164,14 +171,14 @@ def _check_prediction(recording: Recording, prediction: Prediction) -> Predictio
     hidden = ~recording.visible
     mean = _usable("mean", prediction.mean, hidden, recording.name)
     if prediction.variance is None:
-        return Prediction(mean)
+        return replace(prediction, mean=mean)
     variance = _usable("variance", prediction.variance, hidden, recording.name)
     if not (variance[hidden] > 0).all():
         raise InvalidPredictionError(
             f"{recording.name}: expected a positive variance at hidden entries, "
             f"got {float(variance[hidden].min()):g}"
         )
-    return Prediction(mean, variance)
+    return replace(prediction, mean=mean, variance=variance)
 
 
 def _usable(what: str, values: FrameByChannel, hidden: Mask, name: str) -> FrameByChannel:

@@ -7,14 +7,16 @@ positions of frames and walks through it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines import Dynamical, Embedded, Trended
 from mocapbench.benchmark.problems.arrays import Arrays, with_numbers
 from mocapbench.datasets import Frames, Recording
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Dynamical, Embedded, Trended
 
 __all__ = ["internals_of"]
 

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import accumulate
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mocapbench.baselines import Prediction
 from mocapbench.benchmark.problems.body import Body
 from mocapbench.datasets import FrameByChannel, FrameByJointBy3, Recording
 from mocapbench.metrics import ImputedPoses, SampledPoses
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Prediction
 
 __all__ = ["imputed_poses", "sampled_poses"]
 

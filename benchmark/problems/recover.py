@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines import Layered
 from mocapbench.benchmark.problems.arrays import Arrays, with_prefix
 from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
 from mocapbench.datasets import Frames, ToyProcess
 from mocapbench.metrics import Recovery
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Layered
 
 __all__ = ["LAYERS", "Covariances", "RecoverProblem"]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mocapbench.baselines import SampleByFrameByChannel, Synthesiser
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
 from mocapbench.benchmark.problems.body import Body
@@ -16,11 +16,14 @@ from mocapbench.benchmark.problems.placement import sampled_poses
 from mocapbench.datasets import FrameByChannel, Frames
 from mocapbench.metrics import SampledPoses, Synthesis
 
+if TYPE_CHECKING:
+    from mocapbench.baselines import SampleByFrameByChannel, Synthesiser
+
 __all__ = ["SynthesiseProblem"]
 
 
 @dataclass(frozen=True, eq=False)
-class SynthesiseProblem(Problem[SampleByFrameByChannel]):
+class SynthesiseProblem(Problem["SampleByFrameByChannel"]):
     """Draw new recordings that resemble the references.
 
     Parameters

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING
 
-from mocapbench.baselines import Model
 from mocapbench.benchmark.consistency import require_consistent
 from mocapbench.benchmark.errors import UnknownNameError, UnregisteredNameError, UsageError
 from mocapbench.benchmark.registry import (
@@ -18,6 +18,9 @@ from mocapbench.benchmark.registry import (
     find_calibration,
 )
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Entrant, Task
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Model
 
 __all__ = [
     "Request",

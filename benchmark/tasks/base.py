@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
 from itertools import chain
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from mocapbench.baselines import Model
 from mocapbench.baselines.declarations.needs import describe_needs
 from mocapbench.benchmark.errors import UnknownNameError
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 from mocapbench.reports.bundle.task_page import TaskPage
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Model
 
 __all__ = ["PROFILES", "Case", "Entrant", "PoseProblem", "Profile", "Task", "on_recordings"]
 

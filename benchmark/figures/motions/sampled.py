@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.linalg import norm
 
-from mocapbench.baselines import SampleByFrameByChannel
 from mocapbench.benchmark.figures.motions.placing import on_the_spot, place_joints
 from mocapbench.benchmark.figures.motions.played import (
     Pair,
@@ -20,6 +20,9 @@ from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
 from mocapbench.datasets import FrameByJointBy3
 from mocapbench.reports import Motions
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import SampleByFrameByChannel
 
 __all__ = ["draw_sampled_motion"]
 

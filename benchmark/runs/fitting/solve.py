@@ -7,13 +7,15 @@ import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
-from mocapbench.baselines import Model
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.problems.internals import internals_of
 from mocapbench.benchmark.runs.fitting.fit import Fit
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Model
 
 __all__ = ["FitCosts", "Fitted", "build_model", "solve", "train"]
 

@@ -87,6 +87,22 @@ def test_completion_in_a_shell_loads_no_numerical_library(words, expected):
     assert loaded == []
 
 
+@pytest.mark.parametrize("kind", ["tasks", "metrics", "libraries", "formats"])
+def test_lists_load_neither_models_nor_tables(kind):
+    code, _, loaded = _run("list", kind)
+    assert code == 0
+    assert {*loaded} <= {"numpy", "scipy"}
+
+
+def test_the_status_of_a_run_loads_neither_models_nor_tables(tmp_path):
+    task = ("--tasks", "toy-interpolation-1", "--models", "trivial", "--profile", "smoke")
+    assert _run("run", *task, "--out", str(tmp_path / "run"))[0] == 0
+    code, printed, loaded = _run("status", str(tmp_path / "run"))
+    assert code == 0
+    assert "toy-interpolation-1" in printed
+    assert {*loaded} <= {"numpy", "scipy"}
+
+
 @pytest.mark.slow
 def test_what_computes_does_load_them():
     """Else the tests above would prove nothing."""
