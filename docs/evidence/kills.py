@@ -8,7 +8,8 @@ its whole session dies, or only the process that others must notice the death of
 - orphans: processes that live on, and what workers of a cluster keep for a client that is gone,
 - half files: those that are neither as before nor as a command writes that nobody killed, unless
   their names say that they are temporary,
-- leftovers: all files, wherever temporary ones may be, that such a command does not leave,
+- leftovers: all files, wherever temporary ones may be, that such a command does not leave, but for
+  the empty files that run directories and dask keep for their locks,
 - unequal ends: results that are not those of such a command.
 
 All must be 0, or else the exit code is 1.
@@ -45,8 +46,8 @@ MAIN = ("-c", "from mocapbench.benchmark.cli.main import main; main()")
 SMOKE = ("run", "--offline", "--profile", "smoke", "--folds", "1", "--models", "trivial,linear")
 TOY = tuple((*SMOKE, "--tasks", f"toy-interpolation-{number}") for number in (1, 2))
 TEMPORARY = ".mocapbench-tmp-"
-FILES_OF_DASK = {"global.lock", "purge.lock"}  # which stay for its next worker
-MOST_KILLS = 4
+LOCKS = {"mocapbench.lock", "global.lock", "purge.lock"}  # of run directories, and of dask
+MOST_KILLS = 8
 """Of one command, before it may end by itself."""
 PATIENCE = 60.0
 """Seconds for which processes may take note of what happened to another."""
@@ -178,7 +179,7 @@ def read_results(folder: Path) -> dict[str, Any]:
     return {
         str(path.relative_to(folder)): read_result(path)
         for path in folder.rglob("*")
-        if path.is_file() and path.name not in FILES_OF_DASK
+        if path.is_file() and path.name not in LOCKS and path.suffix != ".dirlock"
     }
 
 
