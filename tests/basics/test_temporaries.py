@@ -3,6 +3,7 @@
 A process kills itself at each of the moments at which it asks something of the system.
 """
 
+import fcntl
 import os
 import signal
 import stat
@@ -127,6 +128,25 @@ from pathlib import Path
 from mocapbench.basics.temporaries import sweep
 sweep(Path(sys.argv[1]))
 """
+
+
+@pytest.mark.parametrize("make", [temporary_folder, temporary_file])
+def test_what_was_swept_before_it_was_locked_is_made_again(tmp_path, monkeypatch, make):
+    """Another process takes it for left behind in the moment between."""
+    lock, made = fcntl.flock, []
+
+    def lock_late(descriptor, operation):
+        monkeypatch.setattr("fcntl.flock", lock)
+        made.extend(tmp_path.iterdir())
+        sweep(tmp_path)
+        lock(descriptor, operation)
+
+    monkeypatch.setattr("fcntl.flock", lock_late)
+    with make(tmp_path) as path:
+        assert len(made) == 1
+        sweep(tmp_path)
+        assert [*tmp_path.iterdir()] == [path]
+        assert path != made[0]
 
 
 def test_a_process_forked_from_the_maker_keeps_it(tmp_path):

@@ -6,6 +6,7 @@ import pytest
 
 from mocapbench.basics.temporaries import PREFIX
 from mocapbench.benchmark.cli import fill as command
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling import output_files
 from mocapbench.datasets import CSVFormat
 
@@ -139,6 +140,18 @@ def test_of_two_fills_of_one_file_at_once_the_second_is_refused(cli, walk, out):
     assert [path.read_text() for path in outputs] == ["of the first"] * 4
     assert cli("fill", walk, "--model", "linear", "--out", out) == 2
     assert "would be overwritten" in cli.printed
+
+
+def test_what_another_process_has_filled_meanwhile_is_not_overwritten(out):
+    outputs = tuple(out / name for name in "abcd")
+    out.mkdir()
+    outputs[3].write_text("theirs")
+    with (
+        pytest.raises(UsageError, match="would be overwritten"),
+        output_files.reserve_outputs(outputs),
+    ):
+        pass
+    assert [path.read_text() for path in out.iterdir()] == ["theirs"]
 
 
 def test_a_fill_that_was_killed_before_its_files_counted_is_no_hindrance(cli, walk, out):

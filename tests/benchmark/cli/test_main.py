@@ -495,6 +495,29 @@ def test_the_lock_does_not_outlive_a_killed_process(tmp_path):
         pass
 
 
+def test_if_one_table_cannot_be_written_those_of_an_earlier_run_stay(cli, tmp_path, monkeypatch):
+    assert cli(*FAST, "--out", tmp_path / "run") == 0
+    tables = tmp_path / "tables"
+    tables.mkdir()
+    for name in ("scores", "jobs"):
+        (tables / f"{name}.csv").write_text("earlier")
+    module = importlib.import_module("mocapbench.benchmark.cli.export")
+    write = module._write_csv
+
+    def fail(table, path):
+        if path.name == "jobs.csv":
+            raise OSError(28, "No space left on device")
+        write(table, path)
+
+    monkeypatch.setattr(module, "_write_csv", fail)
+    assert cli("export", "--out", tmp_path / "run", "--to", tables) == 2
+    assert "No space left on device" in cli.printed
+    assert {path.name: path.read_text() for path in tables.iterdir()} == {
+        "scores.csv": "earlier",
+        "jobs.csv": "earlier",
+    }
+
+
 def test_export_without_pyarrow_writes_csv_and_says_how_to_get_parquet(cli, tmp_path, monkeypatch):
     assert cli(*FAST, "--out", tmp_path / "run") == 0
     module = importlib.import_module("mocapbench.benchmark.cli.export")
