@@ -104,9 +104,8 @@ def _replace_numbers(old: pa.ChunkedArray, values: Frames) -> pa.Array:
 def _complete(old: pa.ChunkedArray, cells: Frames | Sequence[str], added: Mask) -> pa.Array:
     """Return frames, times or names with the cells of rows that were added."""
     if not isinstance(cells, np.ndarray):
-        texts = old.cast(pa.large_string()).to_numpy(zero_copy_only=False).copy()
-        texts[added] = cells
-        return pa.array(texts, pa.large_string()).cast(old.type)
+        texts, names = old.cast(pa.large_string()), pa.array(cells, pa.large_string())
+        return pc.replace_with_mask(texts, pa.array(added), names).cast(old.type)
     numbers = np.full(len(added), np.nan)
     numbers[added] = cells
     if pa.types.is_floating(old.type):

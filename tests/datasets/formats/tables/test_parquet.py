@@ -223,6 +223,16 @@ def test_long_notes_are_left_alone(tmp_path):
     assert out["x"] == [1.0, 2.5, 3.0, 2.5, 4.0]
 
 
+@pytest.mark.filterwarnings("ignore::mocapbench.datasets.TextColumnsWarning")
+def test_rows_are_added_also_beside_names_that_are_no_text(tmp_path):
+    path, inserting = tmp_path / "walk.parquet", PARQUET.with_missing_rows()
+    TABLES["markers"].to_parquet(path, index=False, compression=None)
+    path.write_bytes(path.read_bytes().replace("Fuß".encode(), b"F\xff\xfeu"))
+    walk = inserting.read(path)
+    inserting.write(tmp_path / "out.parquet", walk.with_values(np.full((12, 6), 7.25)), like=path)
+    assert np.isin(7.25, PARQUET.read(tmp_path / "out.parquet").values)
+
+
 @pytest.mark.parametrize("keep", [0, 3, 100, 900])
 def test_a_file_that_is_cut_short(given, keep):
     given.write_bytes(given.read_bytes()[:keep])
