@@ -19,7 +19,7 @@ from .formats.markers.trc import TRCFormat
 from .formats.sets import check_alike, frame_rate
 from .formats.tables.comma_separated import CSVFormat
 from .formats.tables.parquet import ParquetFormat
-from .gait import GAIT_VERSION, GaitLibrary, gait_style
+from .generated.gait import GAIT_VERSION, GaitLibrary, gait_style
 from .keys import subject_of
 from .kinematics import (
     FrameByJointBy3,

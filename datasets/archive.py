@@ -11,7 +11,7 @@ from typing import NamedTuple
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.cmu import CMULibrary
 from mocapbench.datasets.errors import RecordingUnavailable
-from mocapbench.datasets.gait import GaitLibrary
+from mocapbench.datasets.generated.gait import GaitLibrary
 from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import Recording
 

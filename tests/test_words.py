@@ -85,7 +85,7 @@ EXCEPTIONS = {
     "trial": {
         r"benchmark/cli/data\.py": "recordings, as users of motion capture call them",
         r"benchmark/tasks/(?:hlm_recordings|missing_frames)\.py": "recordings of the CMU database",
-        r"datasets/(?:gait|gait_walker|keys|people)\.py": "recordings of the CMU database",
+        r"datasets/(?:generated/.*|keys|people)\.py": "recordings of the CMU database",
         r"datasets/formats/markers/c3d_layout\.py": "the group TRIAL of a C3D file",
         r"docs/glossary\.md": "says that a trial is a recording",
         r"docs/evidence/lost_channels\.py": "recordings of the CMU database",

@@ -10,7 +10,7 @@ from typing import Any
 from mocapbench.benchmark import cli
 from mocapbench.benchmark.cli.ending.outputs import whole_outputs
 from mocapbench.benchmark.cli.ending.signals import wind_up_at_signals
-from mocapbench.benchmark.cli.search_path import forget_empty_entries
+from mocapbench.benchmark.cli.running.search_path import forget_empty_entries
 
 __all__ = ["main"]
 

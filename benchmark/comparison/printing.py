@@ -11,10 +11,10 @@ from rich.table import Table
 
 from mocapbench.benchmark.comparison.incomplete import incomplete_notes, losses
 from mocapbench.benchmark.comparison.rows import POOLED, Row
-from mocapbench.benchmark.markdown import escape, table_lines
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.metrics.statistics import FEWEST_UNITS, Contrast, least_signed_rank_p
 from mocapbench.reports import ChangeVerdict
+from mocapbench.reports.markdown import escape, table_lines
 
 __all__ = ["markdown", "notes", "outcome", "terminal"]
 

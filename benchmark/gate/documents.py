@@ -12,7 +12,7 @@ from rich.table import Table
 from mocapbench.benchmark.gate.findings import Check, Finding
 from mocapbench.benchmark.gate.reference import COLUMNS
 from mocapbench.benchmark.gate.rule import Verdict
-from mocapbench.benchmark.markdown import table_lines
+from mocapbench.reports.markdown import table_lines
 
 __all__ = ["junit", "markdown", "plain", "summary", "terminal"]
 

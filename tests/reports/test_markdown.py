@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
 from mocapbench.basics.words import printable
-from mocapbench.benchmark.markdown import escape, table_lines
+from mocapbench.reports.markdown import escape, table_lines
 
 reader = MarkdownIt("commonmark").enable(["table", "strikethrough"])
 markup = st.text("\\`*_[]()<>!|~#&;:-+=\n\r\t ab1.", max_size=20)

@@ -15,7 +15,7 @@ import numpy as np
 from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.acclaim.skeleton_reader import read_skeleton
-from mocapbench.datasets.gait_walker import ARMS, LEGS, walk
+from mocapbench.datasets.generated.gait_walker import ARMS, LEGS, walk
 from mocapbench.datasets.keys import split_key
 from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import Recording
