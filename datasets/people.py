@@ -5,7 +5,7 @@ chosen by a rule that looks at no result: of each subject the recordings with a 
 that last 70 frames or more at 30 frames per second, by number; the first, fifth and ninth of them
 are tested on, and the first sixteen of all others are learnt from. What they show is what the
 database's index says. The salsa of subjects 60 and 61, who dance together, is taken to have 60
-frames per second: with 120, as all others, their feet would move at eight to nine metres per second.
+frames per second: with 120, as all others, their feet would move at eight or nine metres a second.
 """
 
 from __future__ import annotations
