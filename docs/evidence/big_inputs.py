@@ -45,7 +45,7 @@ def make_markers(minutes: float) -> Array:
         for start in range(RATE, n_frames - APART * RATE, APART * RATE):
             first = start + int(rng.integers((APART - 1) * RATE))
             points[first : first + int(rng.integers(SHORTEST, LONGEST)), marker] = np.nan
-    return points.round(3)
+    return np.round(points, 3)
 
 
 def list_rows(points: Array) -> Iterator[list[str]]:
@@ -63,7 +63,7 @@ def write_csv(path: Path, points: Array) -> None:
 
 def write_trc(path: Path, points: Array) -> None:
     """Write a table as OpenSim has it."""
-    facts = {"DataRate": RATE, "CameraRate": RATE, "NumFrames": len(points)}
+    facts: dict[str, float | str] = {"DataRate": RATE, "CameraRate": RATE, "NumFrames": len(points)}
     facts |= {"NumMarkers": N_MARKERS, "Units": "mm"}
     head = [
         ["PathFileType", "4", "(X/Y/Z)", path.name],
