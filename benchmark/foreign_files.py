@@ -281,7 +281,7 @@ def _tell_schema(decode: Callable[[], T]) -> T:
         raise ForeignFileError("too many lists in one another") from error
     except ForeignFileError:
         raise
-    except ValueError as error:
+    except (ValueError, msgspec.MsgspecError) as error:  # the latter is the former since 0.20
         raise ForeignFileError(_in_words(str(error))) from error
 
 

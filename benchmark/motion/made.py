@@ -59,7 +59,7 @@ def _make_motion(problem: Problem[Any], solution: Any) -> tuple[Recording, Calla
     )
 
 
-@_make_motion.register
+@_make_motion.register(ImputeProblem)
 def _fill_recording(
     problem: ImputeProblem, solution: Predictions
 ) -> tuple[Recording, Callable[..., Any]]:
@@ -67,7 +67,7 @@ def _fill_recording(
     return given.with_values(np.where(given.visible, given.values, mean)), draw_filled_motion
 
 
-@_make_motion.register
+@_make_motion.register(SynthesiseProblem)
 def _sample_motion(
     problem: SynthesiseProblem, solution: SampleByFrameByChannel
 ) -> tuple[Recording, Callable[..., Any]]:

@@ -76,7 +76,7 @@ def _record(key, case, label, fold, status):
     scores = {"mse": 1.0 + fold} if status is Status.OK else {}
     return Record(
         key=key,
-        fit_key="",
+        fit_key="fit",
         address=Address("toy-interpolation-1", 1, case, fold, label),
         seed=0,
         model=label,

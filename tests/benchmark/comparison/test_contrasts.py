@@ -31,7 +31,7 @@ def records(label, cases, task=TOY, metric="mse", **fields):
     return [
         Record(
             key=f"{task}{case}{label}{fold}".encode().hex(),
-            fit_key="",
+            fit_key="fit",
             address=Address(task, 1, case, fold, label),
             seed=0,
             model=label,
