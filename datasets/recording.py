@@ -28,11 +28,16 @@ def _freeze(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.frombuffer(numbers.tobytes(), dtype=np.float64).reshape(numbers.shape)
 
 
-def _is_frozen(numbers: object) -> bool:
-    """Return whether an array is on immutable bytes."""
-    while type(numbers) is np.ndarray:
-        numbers = numbers.base
-    return type(numbers) is bytes
+def _is_frozen(numbers: NDArray[np.float64]) -> bool:
+    """Return whether an array is on immutable bytes; unpickled ones are on bytes, but writeable."""
+    base: object = numbers
+    while type(base) is np.ndarray:
+        base = base.base
+    try:
+        numbers.view().setflags(write=True)
+    except ValueError:
+        return type(base) is bytes
+    return False
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ is a recording of another person, and the person is the unit of all statistics.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import cache, partial
 
 import numpy as np
@@ -22,7 +23,14 @@ from mocapbench.benchmark.tasks.marker_gaps import (
     choose_limb,
     place_on_the_spot,
 )
-from mocapbench.benchmark.tasks.pages.people import describe_page
+from mocapbench.benchmark.tasks.pages.people import (
+    IN_BETWEENING,
+    IN_BETWEENING_ANGLES,
+    LOST_LIMB,
+    LOST_LIMB_ANGLES,
+    LOST_MARKERS,
+    LOST_MARKERS_ANGLES,
+)
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import (
     Archive,
@@ -286,6 +294,16 @@ def people_tasks(*lists: People) -> dict[str, Task]:
 
 NAMES = {"lost-limb": "a limb", "lost-markers": "five joints", "in-betweening": "whole frames"}
 ENDS = {"positions": "", "angles": "-angles"}
+_PAGES = {
+    ("positions", "a limb"): LOST_LIMB,
+    ("positions", "five joints"): LOST_MARKERS,
+    ("positions", "whole frames"): IN_BETWEENING,
+    ("angles", "a limb"): LOST_LIMB_ANGLES,
+    ("angles", "five joints"): LOST_MARKERS_ANGLES,
+    ("angles", "whole frames"): IN_BETWEENING_ANGLES,
+}
+"""By values and what is hidden."""
+_ILLUSTRATED = "1 s 10 strangers"
 IN_QUICK = ("lost-limb",)
 
 N_QUICK, N_PAPER = 12, 30
@@ -305,11 +323,12 @@ def _build_task(name: str, lists: tuple[People, ...], values: str, hidden: str) 
         for seconds in SECONDS
     )
     n_folds = N_ROUNDS * max(len(people.subjects) for people in lists)
+    illustrated = tuple(case.name for case in cases if case.name.endswith(_ILLUSTRATED))
     needs_frames = HIDDEN[hidden] is _choose_all
     return Task(
         name=name,
         version=1,
-        page=describe_page(values, hidden, [case.name for case in cases]),
+        page=replace(_PAGES[values, hidden], illustrated=illustrated),
         requires={"fills frames" if needs_frames else "fills entries", "fills new recordings"},
         cases=cases,
         meets=frozenset({"coordinates"} if values == "positions" else ()),

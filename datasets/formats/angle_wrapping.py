@@ -29,7 +29,7 @@ def unwrap_angles(recording: Recording) -> Recording:
     """Return the recording with no jump of more than 180° between visible angles.
 
     Channels whose unit is ``"deg"`` or ``"rad"`` are changed by multiples of 360°, quaternions by
-    their sign (`align_quaternions`), the others not at all.
+    their sign (``align_quaternions``), the others not at all.
     Across a gap, the visible entries on its two sides are neighbours. Hiding entries can leave such
     a jump, so unwrap again after `Recording.hide`.
 

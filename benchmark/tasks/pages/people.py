@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 
 from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
 from mocapbench.reports.bundle.task_page import TaskPage
 
-__all__ = ["describe_page"]
+__all__ = [
+    "IN_BETWEENING",
+    "IN_BETWEENING_ANGLES",
+    "LOST_LIMB",
+    "LOST_LIMB_ANGLES",
+    "LOST_MARKERS",
+    "LOST_MARKERS_ANGLES",
+]
 
 _HIDDEN: Mapping[str, tuple[str, str, str]] = {
     "a limb": ("Lost limb", "an arm or a leg", "other-channels"),
@@ -15,49 +22,36 @@ _HIDDEN: Mapping[str, tuple[str, str, str]] = {
     "whole frames": ("In-betweening", "the whole body", "hidden-frames"),
 }
 """By what is hidden: a title, what it is in a sentence, and the question."""
-_ILLUSTRATED = ("1 s 10 strangers", "synthetic 1 s 10 strangers")
 _VALUES: Mapping[str, tuple[str, str, tuple[str, ...]]] = {
     "positions": (
         "",
-        "positions of 31 joints in cm, without the root’s path on the floor",
+        "positions of 31 joints in cm, without the path on the floor",
         ("mpjpe", "bone_length_error", "jerk_ratio", "coverage_95", "msll", "crps"),
     ),
     "angles": (
         ", joint angles",
-        "44 joint angles, three root rotations and three root translation differences",
+        "44 joint angles, three root rotations and differences of three translations",
         ("angle_error_per_frame", "mpjpe", "coverage_95", "msll", "crps"),
     ),
 }
 """By what recordings hold: the end of the title, what it is in a sentence, the metrics."""
 
 
-def describe_page(values: str, hidden: str, cases: Collection[str]) -> TaskPage:
-    """Return the page of a task.
-
-    Parameters
-    ----------
-    values : str
-        ``positions`` or ``angles``.
-    hidden : str
-        ``a limb``, ``five joints`` or ``whole frames``.
-    cases : collection of str
-        The names of the task's cases.
-    """
+def _describe_page(values: str, hidden: str) -> TaskPage:
+    """Return the page of a task, by the keys of `_VALUES` and `_HIDDEN`."""
     title, what, question = _HIDDEN[hidden]
     end, held, metrics = _VALUES[values]
     return TaskPage(
         title=f"{title}{end}",
         reference="this project’s own protocol",
         description=(
-            f"Of each person, {what} is hidden for a quarter of a second to two seconds, up to "
-            "three times in a recording. A fold is a recording of another person. Models learn "
-            "from its visible part alone, from up to three other recordings of the person, or from "
-            f"3 to 100 recordings of others. Values are {held}, at 30 Hz."
+            f"Of each person, {what} is hidden for .25 to 2 s, up to three times. A fold is a "
+            "recording of another person. Models learn from its visible part, from three others of "
+            f"the person, or from 3 to 100 of strangers. Values are {held}."
         ),
         question=question,
         metrics=metrics,
         along=("recordings", "seconds"),
-        illustrated=tuple(case for case in _ILLUSTRATED if case in cases),
         figures=(draw_filled_motion,),
         remarks=(
             "People are split into three groups; strangers are of the two in which a person is "
@@ -68,3 +62,9 @@ def describe_page(values: str, hidden: str, cases: Collection[str]) -> TaskPage:
             "Subjects 60 and 61 dance with each other. Statistics count them as one person.",
         ),
     )
+
+
+LOST_LIMB, LOST_MARKERS, IN_BETWEENING = (_describe_page("positions", what) for what in _HIDDEN)
+LOST_LIMB_ANGLES, LOST_MARKERS_ANGLES, IN_BETWEENING_ANGLES = (
+    _describe_page("angles", what) for what in _HIDDEN
+)

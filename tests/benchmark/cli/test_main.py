@@ -466,7 +466,7 @@ def test_a_run_that_another_one_writes_to_is_refused(cli, tmp_path):
         assert cli(*FAST, "--out", tmp_path / "run") == 2
         assert "another run is writing to" in cli.printed
         assert "wait for it or name another folder" in cli.printed
-        assert [*(tmp_path / "run" / "records").iterdir()] == []
+        assert [*(tmp_path / "run" / "records").rglob("*.json")] == []
     assert cli(*FAST, "--models", "trivial", "--folds", 1, "--out", tmp_path / "run") == 0
 
 

@@ -21,7 +21,7 @@ LOST = "incomplete: 3 of 16 folds lost"
 def records(label, value, metrics=("mse", "smse")):
     return [
         Record(
-            *(f"{case}{label}{fold}".encode().hex(), "", Address(TOY, 1, case, fold, label)),
+            *(f"{case}{label}{fold}".encode().hex(), "fit", Address(TOY, 1, case, fold, label)),
             *(0, label, {}, Status.OK),
             scores=dict.fromkeys(metrics, value * (1.0 + 0.1 * fold)),
         )

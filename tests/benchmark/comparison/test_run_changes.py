@@ -28,7 +28,7 @@ def record(label, case, fold, value, *, task=TOY, metric="mse", **fields):
     scores = {metric: value, "smse_pooled": 1.0} if task == TOY else {metric: value}
     return Record(
         **{
-            **{"key": key, "fit_key": "", "address": Address(task, 1, case, fold, label)},
+            **{"key": key, "fit_key": "fit", "address": Address(task, 1, case, fold, label)},
             **{"seed": 0, "model": label, "parameters": {"k": 3}, "status": Status.OK},
             **{"scores": scores, "provenance": ABOUT, **fields},
         }

@@ -8,6 +8,7 @@ from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.plan import plan, required_recordings
 from mocapbench.benchmark.runs.request import Request
 from mocapbench.benchmark.tasks.base import Entrant
+from mocapbench.benchmark.tasks.people import NAMES
 
 
 def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
@@ -45,7 +46,9 @@ def test_a_profile_leaves_out_what_runs_only_when_asked_for():
 def test_generated_gait_stands_in_for_recordings_but_not_among_the_rows_of_the_papers(name):
     task = TASKS.get(name)
     of_paper = {case.name for case in task.cases if not case.synthetic}
-    assert set(task.profile("paper").cases) == of_paper
+    chosen = set(task.profile("paper").cases)
+    # Those of many people are of no paper, and have more rows than one can wait for.
+    assert chosen < of_paper if name.removesuffix("-angles") in NAMES else chosen == of_paper
     for profile in ("smoke", "quick"):
         chosen = [task.case(case) for case in task.profile(profile).cases]
         assert any(case.synthetic or not case.recordings for case in chosen)
