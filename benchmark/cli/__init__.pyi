@@ -1,4 +1,4 @@
 from .commands import COMMANDS, app
-from .failures import exit_code, explain, show_warning
+from .ending.failures import exit_code, explain, show_warning
 
 __all__ = ["COMMANDS", "app", "exit_code", "explain", "show_warning"]

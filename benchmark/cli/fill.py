@@ -20,7 +20,7 @@ from mocapbench import datasets, reports
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark import filling, recording_checks
 from mocapbench.benchmark.cli.console import LiteralConsole
-from mocapbench.benchmark.cli.failures import explain
+from mocapbench.benchmark.cli.ending.failures import explain
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
 from mocapbench.benchmark.errors import ExitCode, UsageError
 

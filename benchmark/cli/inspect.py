@@ -14,7 +14,7 @@ from mocapbench import benchmark as bench
 from mocapbench import datasets
 from mocapbench.benchmark import recording_checks
 from mocapbench.benchmark.cli.console import LiteralConsole
-from mocapbench.benchmark.cli.failures import explain
+from mocapbench.benchmark.cli.ending.failures import explain
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
 from mocapbench.benchmark.errors import ExitCode, UsageError
 

@@ -1,1 +1,1 @@
-"""How a command ends where a signal strikes or its output cannot be written: by which exit code."""
+"""How a command ends: what it says of an error, where a signal strikes, and by which exit code."""

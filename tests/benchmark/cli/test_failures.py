@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mocapbench.basics.whole_files import atomic_write
-from mocapbench.benchmark.cli.failures import explain, show_warning
+from mocapbench.benchmark.cli.ending.failures import explain, show_warning
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.datasets import TruncatedFrameWarning
 

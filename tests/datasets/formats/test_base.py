@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from format_files import sample, walk
 
-from mocapbench.benchmark.cli.failures import exit_code
+from mocapbench.benchmark.cli.ending.failures import exit_code
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.registry import FORMATS
 from mocapbench.datasets import CSVFormat, Format, FormatError, MissingExtraError
