@@ -16,7 +16,7 @@ from mocapbench.metrics.statistics import FEWEST_UNITS, Contrast, least_signed_r
 from mocapbench.reports import ChangeVerdict
 from mocapbench.reports.markdown import escape, table_lines
 
-__all__ = ["markdown", "notes", "outcome", "terminal"]
+__all__ = ["describe_metric", "format_value", "markdown", "notes", "outcome", "terminal"]
 
 POWERLESS = (
     f"Where n is {FEWEST_UNITS}, Wilcoxon’s signed-rank test cannot go below p = "
@@ -42,6 +42,18 @@ def outcome(row: Row, sides: tuple[str, str]) -> str:
     if verdict.more_than_chance:
         return f"{sides[verdict is ChangeVerdict.BETTER]} better"
     return str(verdict.value)
+
+
+def describe_metric(name: str) -> str:
+    """Return a metric's title, and what of it is better."""
+    metric = METRICS.get(name)
+    goal = metric.direction.value if metric.target is None else f"near {metric.target:g}"
+    return f"{metric.title} ({goal} is better)"
+
+
+def format_value(value: float) -> str:
+    """Return a number with three digits, or a dash where there is none."""
+    return "–" if math.isnan(value) else f"{value:.3g}"
 
 
 def terminal(rows: Sequence[Row], sides: tuple[str, str]) -> Iterator[Table]:
@@ -95,9 +107,7 @@ def _averages_distances(row: Row) -> bool:
 
 def _by_metric(rows: Sequence[Row]) -> Iterator[tuple[str, list[Row]]]:
     for (task, name), group in groupby(rows, key=lambda row: (row.task, row.metric)):
-        metric = METRICS.get(name)
-        goal = metric.direction.value if metric.target is None else f"near {metric.target:g}"
-        yield f"{task}: {metric.title} ({goal} is better)", list(group)
+        yield f"{task}: {describe_metric(name)}", list(group)
 
 
 def _columns(sides: tuple[str, str]) -> list[str]:
@@ -109,9 +119,9 @@ def _cells(row: Row, sides: tuple[str, str]) -> list[str]:
     contrast = row.contrast
     return [
         f"{row.entrant}: {row.case}" if row.entrant else row.case,
-        *(str(contrast.n), _digits(contrast.first), _digits(contrast.second)),
-        f"{_digits(contrast.advantage)} {_interval(contrast)}".strip(),
-        *map(_digits, (row.t_p_holm, row.signed_rank_p_holm)),
+        *(str(contrast.n), format_value(contrast.first), format_value(contrast.second)),
+        f"{format_value(contrast.advantage)} {_interval(contrast)}".strip(),
+        *map(format_value, (row.t_p_holm, row.signed_rank_p_holm)),
         _probabilities(contrast),
         outcome(row, sides),
     ]
@@ -119,14 +129,12 @@ def _cells(row: Row, sides: tuple[str, str]) -> list[str]:
 
 def _interval(contrast: Contrast) -> str:
     return (
-        "" if math.isnan(contrast.low) else f"[{_digits(contrast.low)}, {_digits(contrast.high)}]"
+        ""
+        if math.isnan(contrast.low)
+        else f"[{format_value(contrast.low)}, {format_value(contrast.high)}]"
     )
 
 
 def _probabilities(contrast: Contrast) -> str:
     shares = (contrast.better, contrast.equivalent, contrast.worse)
     return "–" if math.isnan(contrast.better) else " / ".join(f"{share:.2f}" for share in shares)
-
-
-def _digits(value: float) -> str:
-    return "–" if math.isnan(value) else f"{value:.3g}"

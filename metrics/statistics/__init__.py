@@ -4,8 +4,8 @@ A difference is an *advantage*: the loss of the second entrant minus that of the
 positive means that the first is better, whatever the metric's direction. `pairing` pairs values,
 `means` has the error of a mean over units, `differences`, `signed_ranks` and `posterior` test a
 sample of differences, `contrast` puts these together, `families` tests many at once, `power` plans
-tests, and `ranking` orders more than two entrants. docs/mathematics/statistics.md explains which of these is used where,
-and why.
+tests, and `ranking` orders more than two entrants. docs/mathematics/statistics.md explains which of
+these is used where, and why.
 """
 
 from mocapbench.metrics.statistics.contrast import ROPE, Contrast, contrast

@@ -23,7 +23,15 @@ from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 
-__all__ = ["MOST_LEVEL", "Place", "Standing", "level_with_best", "standings", "too_few_units"]
+__all__ = [
+    "MOST_LEVEL",
+    "Place",
+    "Standing",
+    "level_with_best",
+    "next_best",
+    "standings",
+    "too_few_units",
+]
 
 MOST_LEVEL = 3
 """Labels that are named at most where their means are the same."""
@@ -123,6 +131,18 @@ def level_with_best(found: Sequence[Standing]) -> list[Standing]:
     """
     best, *others = found
     return [one for one in others if one.complete and math.isclose(one.mean, best.mean)]
+
+
+def next_best(found: Sequence[Standing]) -> Standing | None:
+    """Return the best of those that have every score and another mean than the first.
+
+    Parameters
+    ----------
+    found : sequence of Standing
+        As `standings` returns them, one or more.
+    """
+    level = level_with_best(found)
+    return next((one for one in found[1:] if one.complete and one not in level), None)
 
 
 def _standings(scored: Cells) -> tuple[Standing, ...]:

@@ -14,6 +14,7 @@ from mocapbench.reports.analysis.standings import (
     Place,
     Standing,
     level_with_best,
+    next_best,
     standings,
 )
 from mocapbench.reports.bundle.task_page import QUESTIONS
@@ -96,14 +97,8 @@ def _sure(leads: Sequence[Place | None]) -> str:
 
 def _lead(found: Sequence[Standing]) -> Place | None:
     """Return what the test says of the lead; None without a rival."""
-    second = _next_best(found)
+    second = next_best(found)
     return second.standing if second else None
-
-
-def _next_best(found: Sequence[Standing]) -> Standing | None:
-    """Return the best of those that have every score and another mean than the first."""
-    level = level_with_best(found)
-    return next((one for one in found[1:] if one.complete and one not in level), None)
 
 
 def _is_beaten(results: TaskResults, found: Sequence[Standing]) -> bool:
@@ -120,7 +115,7 @@ def _describe_task(results: TaskResults, found: Sequence[Standing]) -> tuple[str
 
 def _describe_means(results: TaskResults, found: Sequence[Standing]) -> str:
     """Return the best model, its mean, the next, and the margin."""
-    best, second, level = found[0], _next_best(found), level_with_best(found)
+    best, second, level = found[0], next_best(found), level_with_best(found)
     names = join_names([one.label for one in [best, *level]], MOST_LEVEL)
     alike = ", alike:" if level else ""
     places = results.decimals[first_metric(results)]

@@ -118,5 +118,5 @@ def test_a_test_that_cannot_be_is_refused(arguments, message):
 @pytest.mark.parametrize("power", [0.05, 0.01, 1.0, math.nan])
 def test_a_power_of_at_most_the_level_or_of_1_is_refused(power):
     for plan in (detectable_difference, units_needed):
-        with pytest.raises(ValueError, match="a power between the level 0.05 and 1"):
+        with pytest.raises(ValueError, match="a power between the level"):
             plan(10, 1.0, 0.05, power)
