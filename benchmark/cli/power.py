@@ -57,8 +57,9 @@ def power(
     The spread between people is that of the run, of the difference of two models.
     """
     require_writable(csv)
+    numbers = comparison.read_numbers(DEFAULT_PEOPLE if people is None else split(people))
+    comparison.require_plan(difference, alpha, power)
     load_plugins(plugin)
-    numbers = comparison.read_numbers(split(people) or DEFAULT_PEOPLE)
     store, console = bench.RunDirectory(run), LiteralConsole()
     load_tasks(store)
     if not (records := store.planned()):
@@ -67,7 +68,7 @@ def power(
         bench.bundle(records, store.load_plan()["provenance"]),
         tasks=split(tasks),
         metric=metric,
-        models=split(models),
+        models=None if models is None else split(models),
     )
     planned = comparison.plan_people(spreads, numbers, difference, alpha, power)
     for table in comparison.power_tables(planned, difference):

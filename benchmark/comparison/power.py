@@ -9,12 +9,14 @@ the plan agree.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.comparison.rows import POOLED
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
 from mocapbench.metrics.statistics import (
@@ -35,14 +37,14 @@ from mocapbench.reports.analysis.standings import (
     too_few_units,
 )
 
-__all__ = ["SHOWN_BY", "list_spreads", "plan_people", "read_numbers"]
+__all__ = ["SHOWN_BY", "list_spreads", "plan_people", "read_numbers", "require_plan"]
 
 SHOWN_BY = "shown_by_"
 """What columns begin with that say which difference a number of units shows."""
 
 NO_SPREAD = "the same difference in all"
 
-Spread = dict[str, str | int | float]
+Spread = Mapping[str, Any]
 """One row: where, of which entrants, and what was measured; NaN where nothing can be planned."""
 
 
@@ -51,7 +53,7 @@ def list_spreads(
     *,
     tasks: Sequence[str] = (),
     metric: str | None = None,
-    models: Sequence[str] = (),
+    models: Sequence[str] | None = None,
 ) -> pd.DataFrame:
     """Return the spread of a difference for each case of a run, and for all cases of a task.
 
@@ -62,7 +64,7 @@ def list_spreads(
         By default all of the run.
     metric : str or None
         By default the one by which a task is scored.
-    models : sequence of str
+    models : sequence of str or None
         Two labels; by default, in each row, the best and the next that differs from it.
 
     Returns
@@ -79,12 +81,14 @@ def list_spreads(
     UsageError
         If ``models`` are not two, or there is no spread in any row.
     """
-    if models and len(set(models)) != 2:
-        raise UsageError(f"power: expected two models to compare, got {', '.join(models)}")
+    if models is not None and len(set(models)) != 2:
+        raise UsageError(
+            f"power: expected two models to compare, got {', '.join(models) or 'neither'}"
+        )
     layouts = {layout.name: layout for layout in bundle.layouts}
     _require_known("task of the run", tasks, layouts)
     results = [task_results(bundle, layouts[name]) for name in tasks or layouts]
-    _require_known("ranked model of these tasks", models, _list_ranked(results))
+    _require_known("ranked model of these tasks", models or (), _list_ranked(results))
     scored = {name for each in results for name in each.folds.index.unique("metric")}
     _require_known("metric of these tasks", [metric] if metric else [], scored)
     rows = [row for each in results for row in _list_rows(each, metric, models)]
@@ -101,13 +105,30 @@ def read_numbers(texts: Sequence[str]) -> list[int]:
     UsageError
         If one is no whole number, or fewer than are tested.
     """
-    for text in texts:
-        if not text.isdecimal() or int(text) < FEWEST_UNITS:
-            raise UsageError(
-                f"power: expected numbers of people from {FEWEST_UNITS}, as fewer are not tested, "
-                f"got --people {text}"
-            )
+    wrong = [text for text in texts if not text.isdecimal() or int(text) < FEWEST_UNITS]
+    if wrong or not texts:
+        raise UsageError(
+            f"power: expected numbers of people from {FEWEST_UNITS}, as fewer are not tested, got "
+            f"--people {','.join(texts)}"
+        )
     return list(dict.fromkeys(map(int, texts)))
+
+
+def require_plan(difference: float | None, alpha: float, power: float) -> None:
+    """Refuse what `plan_people` cannot plan.
+
+    Raises
+    ------
+    UsageError
+        If the difference is not above 0, or not 0 < alpha < power < 1.
+    """
+    if difference is not None and not 0.0 < difference < math.inf:
+        raise UsageError(f"power: expected a difference above 0, got --difference {difference:g}")
+    if not 0.0 < alpha < power < 1.0:
+        raise UsageError(
+            "power: expected a level and a greater power, both between 0 and 1, got "
+            f"--alpha {alpha:g} and --power {power:g}"
+        )
 
 
 def plan_people(
@@ -135,13 +156,7 @@ def plan_people(
     DataFrame
         With columns ``shown_now``, the difference that the run's own units show, and ``shown_by_N``
         of each number; ``claim``, the difference to show, and the units ``needed`` for it.
-
-    Raises
-    ------
-    UsageError
-        If the difference is not above 0, or not 0 < alpha < power < 1.
     """
-    _require_plan(difference, alpha, power)
     planned = spreads.assign(
         shown_now=_list_shown(spreads["worth"], spreads["spread"], alpha, power),
         claim=spreads["difference"] if difference is None else difference,
@@ -156,16 +171,6 @@ def plan_people(
     return planned
 
 
-def _require_plan(difference: float | None, alpha: float, power: float) -> None:
-    if difference is not None and not 0.0 < difference < math.inf:
-        raise UsageError(f"power: expected a difference above 0, got --difference {difference:g}")
-    if not 0.0 < alpha < power < 1.0:
-        raise UsageError(
-            "power: expected a level and a greater power, both between 0 and 1, got "
-            f"--alpha {alpha:g} and --power {power:g}"
-        )
-
-
 def _require_known(kind: str, names: Sequence[str], known: Collection[str]) -> None:
     for name in names:
         if name not in known:
@@ -176,7 +181,9 @@ def _list_ranked(results: Sequence[TaskResults]) -> set[str]:
     return {label for each in results for label in each.layout.ranked}
 
 
-def _list_rows(results: TaskResults, metric: str | None, models: Sequence[str]) -> list[Spread]:
+def _list_rows(
+    results: TaskResults, metric: str | None, models: Sequence[str] | None
+) -> list[Spread]:
     """Return the rows of a task: its cases, and all of those that count if they are several."""
     name = metric or results.layout.page.metrics[0]
     pooled = results.representative_cases(name)
@@ -190,15 +197,15 @@ def _list_rows(results: TaskResults, metric: str | None, models: Sequence[str]) 
 
 
 def _measure_spread(
-    results: TaskResults, metric: str, cases: Sequence[CaseLayout], models: Sequence[str]
+    results: TaskResults, metric: str, cases: Sequence[CaseLayout], models: Sequence[str] | None
 ) -> Spread:
     """Return what a row has besides its place; nothing where two entrants have no score."""
     scored = cells(results, metric, cases)
-    pair = [*models] or _choose_pair(results, metric, cases)
+    pair = _choose_pair(results, metric, cases) if models is None else models
     if len(pair) < 2 or not set(pair) <= set(scored.labels):
         return {}
     either = scored.scored[[scored.labels.index(label) for label in pair]]
-    both = either.all(axis=0)
+    both = np.asarray(either.all(axis=0))
     if not both.any():
         return {}
     lost = bool((either.any(axis=0) != both).any())
@@ -216,7 +223,7 @@ def _describe_difference(
     scored: Cells, pair: Sequence[str], both: NDArray[np.bool_], lost: bool
 ) -> Spread:
     """Return the units, the mean difference and its spread, or in the ``finding`` why not."""
-    shares = scored.weights(both).sum(axis=1)
+    shares: Array = scored.weights(both).sum(axis=1)
     first, second = (
         scored.by_unit(scored.losses, both)[scored.labels.index(label)] for label in pair
     )

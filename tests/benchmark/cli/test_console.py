@@ -147,6 +147,8 @@ def test_what_is_written_beside_a_bar_is_text(monkeypatch, capsys):
         ("compare", "{run}", "{run}"),
         ("compare", "{run}", "--models", f"knn,{HOSTILE}"),
         ("compare", "{run}", "--models", f"no,{CLEAR}"),
+        ("power", "{run}"),
+        ("power", "{run}", "--models", f"no,{CLEAR}"),
         ("export", "--out", HOSTILE),
         ("run", "--tasks", HOSTILE),
         ("data", "status", HOSTILE),

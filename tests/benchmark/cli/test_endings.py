@@ -23,7 +23,7 @@ pytestmark = pytest.mark.slow
 
 SCRIPT = "from mocapbench.benchmark.cli.main import main; main()"
 SMOKE = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
-FAST = (*SMOKE, "--models", "trivial,linear", "--folds", "1", "--jobs", "1")
+FAST = (*SMOKE, "--models", "trivial,linear", "--folds", "2", "--jobs", "1")
 GIVEN = {
     "run": (*FAST, "--out", "run"),
     "fill": ("fill", "walk.csv", "--model", "linear", "--out", "{new}"),
@@ -34,6 +34,7 @@ GIVEN = {
     "motion": ("motion", "--help"),
     "check": ("check", "run", "--reference", "reference.csv"),
     "compare": ("compare", "run", "--models", "trivial,linear"),
+    "power": ("power", "run"),
     "data": ("data", "status", "35_03"),
     "export": ("export", "--out", "run", "--to", "{new}"),
     "list": ("list", "models"),

@@ -408,6 +408,7 @@ def test_a_report_into_a_folder_that_is_not_there_exits_with_2(cli, tmp_path):
 UNWRITABLE = {
     "check": ("check", "RUN", "--junit", "FILE", "--reference", "RUN"),
     "compare": ("compare", "RUN", "RUN", "--csv", "FILE"),
+    "power": ("power", "RUN", "--csv", "FILE"),
     "report": ("report", "--out", "RUN", "--to", "FILE"),
 }
 

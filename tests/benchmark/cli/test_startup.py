@@ -47,6 +47,7 @@ def _run(*arguments, **environment):
         (("motion", "--help"), "Folds are counted from 1"),
         (("check", "--help"), "--reference"),
         (("compare", "--help"), "--rope"),
+        (("power", "--help"), "--people"),
         (("data", "--help"), "verify"),
         (("export", "--help"), "Folder of the files"),
         (("list", "--help"), "libraries"),

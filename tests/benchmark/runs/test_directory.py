@@ -57,6 +57,7 @@ def test_a_run_directory_of_another_layout_is_refused(store, marker, take_up):
         ("export", "--to", "tables", "--out"),
         ("status",),
         ("compare",),
+        ("power",),
         ("check", "--controls"),
     ],
     ids=lambda command: command[0],
