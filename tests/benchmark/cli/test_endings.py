@@ -23,7 +23,7 @@ pytestmark = pytest.mark.slow
 
 SCRIPT = "from mocapbench.benchmark.cli.main import main; main()"
 SMOKE = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
-FAST = (*SMOKE, "--models", "trivial,linear", "--folds", "2", "--jobs", "1")
+FAST = (*SMOKE, "--models", "trivial,linear", "--folds", "5", "--jobs", "1")
 GIVEN = {
     "run": (*FAST, "--out", "run"),
     "fill": ("fill", "walk.csv", "--model", "linear", "--out", "{new}"),
