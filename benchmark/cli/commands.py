@@ -26,7 +26,7 @@ COMMANDS = {
     "motion": "Write the motion that a model made as GIF, AMC, BVH or CSV.",
     "check": "Check that no metric of a run is worse than its reference value.",
     "compare": "Compare two runs, or two models of one run, by paired folds.",
-    "power": "Say which difference a number of people can show, and how many one needs.",
+    "power": "Say which difference how many people can show.",
     "data": "Look for, fetch and verify recordings.",
     "export": "Write the scores and jobs of the last run as tables.",
     "list": "List tasks, models, metrics, libraries or formats of files.",

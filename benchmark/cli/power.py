@@ -52,7 +52,7 @@ def power(
     csv: Annotated[Path | None, typer.Option(help="A CSV file to write, unrounded.")] = None,
     plugin: Plugins = None,
 ) -> None:
-    """Say which difference a number of people can show, and how many one needs.
+    """Say which difference how many people can show.
 
     The spread between people is that of the run, of the difference of two models.
     """
