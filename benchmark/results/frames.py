@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import pandas as pd
@@ -23,22 +23,7 @@ def score_table(records: Sequence[Record]) -> pd.DataFrame:
     tells two rows of one address apart: ``parameters, version, seed, commit, key``. Two standard
     deviations (ddof 1) over samples are NaN where the value is not a mean over two or more.
     """
-    rows = [
-        {
-            **_address(record),
-            "metric": metric,
-            "value": value,
-            "sample_two_sd": _sample_two_sd(record, metric),
-            "left_out": record.left_out.get(metric, 0),
-            "parameters": _parameters(record),
-            "version": record.address.version,
-            "seed": record.seed,
-            "commit": record.provenance.get("commit", ""),
-            "key": record.key,
-        }
-        for record in records
-        for metric, value in record.scores.items()
-    ]
+    rows = [row for record in records for row in _score_rows(record)]
     columns = [*_ADDRESS, "metric", "value", "sample_two_sd", "left_out"]
     columns += ["parameters", "version", "seed", "commit", "key"]
     return pd.DataFrame(rows, columns=columns)
@@ -53,16 +38,16 @@ def job_table(records: Sequence[Record]) -> pd.DataFrame:
     command that gets them, up to their names.
     """
     rows = [
-        {
-            **_address(record),
-            **{name: getattr(record, name) for name in _COSTS},
-            "parameters": _parameters(record),
-            "status": record.status.value,
-            "message": record.message,
-            "traceback": record.traceback,
-            "missing": shlex.join(record.missing),
-            "fetch": record.fetch,
-        }
+        (
+            *_address(record),
+            _parameters(record),
+            record.status.value,
+            record.message,
+            record.traceback,
+            *(getattr(record, name) for name in _COSTS),
+            shlex.join(record.missing),
+            record.fetch,
+        )
         for record in records
     ]
     columns = [*_ADDRESS, "parameters", "status", "message", "traceback", *_COSTS]
@@ -70,8 +55,27 @@ def job_table(records: Sequence[Record]) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=columns)
 
 
-def _address(record: Record) -> dict[str, object]:
-    return {**record.address._asdict(), "model": record.model}
+def _score_rows(record: Record) -> Iterator[tuple[object, ...]]:
+    """Yield a row for each score of a record; tuples, since a table of many rows is made of them.
+
+    What tells two rows of one address apart is one object in all of them.
+    """
+    apart = (
+        _parameters(record),
+        record.address.version,
+        record.seed,
+        record.provenance.get("commit", ""),
+        record.key,
+    )
+    for metric, value in record.scores.items():
+        of_metric = (metric, value, _sample_two_sd(record, metric), record.left_out.get(metric, 0))
+        yield *_address(record), *of_metric, *apart
+
+
+def _address(record: Record) -> tuple[object, ...]:
+    """Return the values of the columns `_ADDRESS`."""
+    address = record.address
+    return address.task, address.case, address.fold, address.label, record.model
 
 
 def _sample_two_sd(record: Record, metric: str) -> float:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Literal
 
@@ -43,9 +44,10 @@ _KEYS = table_schema(
 _LARGEST = 256 * 2**20
 """Bytes, of hundreds of thousands of keys."""
 _encode = json.JSONEncoder(sort_keys=True).encode
+_encode_in_order = json.JSONEncoder().encode
 
 
-def key_parts(fitted: Mapping[str, Any], scored: Mapping[str, Any]) -> dict[str, str]:
+def key_parts(fitted: Mapping[str, Any], scored: Mapping[str, Any]) -> Mapping[str, str]:
     """Return what two keys cover, each part as a short text or a digest.
 
     Parameters
@@ -73,15 +75,21 @@ def key_parts(fitted: Mapping[str, Any], scored: Mapping[str, Any]) -> dict[str,
         **_each("version of", fitted["libraries"]),
         **_each("metric", scored["metrics"]),
     }
-    return {name: _short(value) for name, value in parts.items()}
+    return _shorten_parts(_encode_in_order(parts))
+
+
+@lru_cache(maxsize=1024)  # the folds of a row have the same parts, and come one after the other
+def _shorten_parts(parts: str) -> Mapping[str, str]:
+    """Return the parts of a key, of which the JSON is given, each as a short text or a digest."""
+    return {name: _shorten_text(_encode(value)) for name, value in json.loads(parts).items()}
 
 
 def _each(kind: str, values: Mapping[str, Any]) -> dict[str, Any]:
     return {f"{kind} {name}": value for name, value in values.items()}
 
 
-def _short(value: Any) -> str:
-    text = _encode(value)
+@lru_cache(maxsize=8192)  # most are parts of many rows, which are to hold one text
+def _shorten_text(text: str) -> str:
     if len(text) <= _LONGEST:
         return text
     return DIGEST + hashlib.sha256(text.encode()).hexdigest()[:16]

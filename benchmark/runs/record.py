@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from array import array
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
+from functools import lru_cache
+from sys import intern
 from typing import Annotated, Any, Literal, Self, get_type_hints
 
 import msgspec
+import numpy as np
 from msgspec import Meta
 
 from mocapbench.basics.words import printable
@@ -62,8 +66,9 @@ class Record:
         How it ended, and why; texts are kept without control characters.
     scores : mapping of str to float
         Metric values; NaN where the metric is not defined.
-    parts : mapping of str to mapping of str to list of float
-        Per-output, per-frame … values by metric.
+    parts : mapping of str to mapping of str to sequence of float
+        Per-output, per-frame … values by metric; kept as arrays of 8 bytes a number, for a record
+        has hundreds of them.
     left_out : mapping of str to int
         Degenerate outputs left out, by metric.
     fit_seconds, predict_seconds, peak_memory_mb : float or None
@@ -91,7 +96,7 @@ class Record:
     message: Text = ""
     traceback: Text = ""
     scores: Mapping[str, float] = field(default_factory=dict)
-    parts: Mapping[str, Mapping[str, list[float]]] = field(default_factory=dict)
+    parts: Mapping[str, Mapping[str, Sequence[float]]] = field(default_factory=dict)
     left_out: Mapping[Name, Index] = field(default_factory=dict)
     fit_seconds: _Cost | None = None
     predict_seconds: _Cost | None = None
@@ -110,11 +115,26 @@ class Record:
             object.__setattr__(self, name, _plain(getattr(self, name)))
         for name in ("warnings", "missing"):
             object.__setattr__(self, name, tuple(map(_plain, getattr(self, name))))
+        packed = {
+            intern(metric): {intern(axis): _pack_numbers(part) for axis, part in parts.items()}
+            for metric, parts in self.parts.items()
+        }
+        object.__setattr__(self, "parts", packed)
+        object.__setattr__(self, "scores", {intern(name): v for name, v in self.scores.items()})
+        object.__setattr__(self, "provenance", _share_facts(*self.provenance.items()))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what pickles it: a record that a worker sends shares its provenance, too."""
+        return type(self), tuple(getattr(self, item.name) for item in fields(self))
 
     def to_json(self) -> str:
         """Return the record as JSON; NaN becomes null, the address five entries."""
         document = {item.name: getattr(self, item.name) for item in fields(self)}
         document |= {"format": FORMAT, **document.pop("address")._asdict()}
+        document["parts"] = {
+            metric: {axis: list(part) for axis, part in parts.items()}
+            for metric, parts in self.parts.items()
+        }
         return encode_json(document).decode()
 
     @classmethod
@@ -147,6 +167,17 @@ _Document = msgspec.defstruct(
     [(name, schema) for name, schema in _ENTRIES.items() if name != "address"],
     forbid_unknown_fields=True,
 )
+
+
+def _pack_numbers(numbers: Sequence[float | None]) -> array[float]:
+    """Return numbers in 8 bytes each; None is NaN."""
+    return array("d", np.asarray(numbers, dtype=np.float64).tobytes())
+
+
+@lru_cache
+def _share_facts(*facts: tuple[str, str]) -> Mapping[str, str]:
+    """Return the one mapping of these entries, which most records of a run have in common."""
+    return dict(facts)
 
 
 def _plain(text: str) -> str:

@@ -116,3 +116,10 @@ def test_a_part_stands_once_however_many_keys_have_it():
         entries = {f"{n:064}": (here, parts) for n in range(count)}
         sizes.append(len(json.dumps(encode_keys(entries))))
     assert (sizes[1] - sizes[0]) / 999 < 220
+
+
+def test_the_folds_of_a_row_share_what_their_keys_cover():
+    request = Request("smoke", ("toy-interpolation-1",), ("trivial", "knn"), folds=20)
+    jobs = plan(request, archive_at(None))
+    rows = {job.address._replace(fold=None) for job in jobs}
+    assert len({id(job.parts) for job in jobs}) == len(rows) < len(jobs)

@@ -1,5 +1,6 @@
 import json
 import math
+import pickle
 import unicodedata
 from dataclasses import replace
 
@@ -26,6 +27,8 @@ RECORDS = st.builds(
     message=TEXT,
     traceback=TEXT,
     scores=st.dictionaries(TEXT, FLOATS),
+    parts=st.dictionaries(TEXT, st.dictionaries(TEXT, st.lists(FLOATS, max_size=3)), max_size=2),
+    provenance=st.dictionaries(TEXT, TEXT, max_size=2),
     warnings=st.lists(TEXT).map(tuple),
     fit_seconds=st.none() | st.floats(0, 1e6),
     converged=st.none() | st.booleans(),
@@ -41,6 +44,26 @@ def test_a_record_survives_json(record):
     assert back.to_json() == record.to_json()
     assert back.status is record.status
     assert all(math.isnan(back.scores[k]) == math.isnan(v) for k, v in record.scores.items())
+
+
+@given(RECORDS)
+def test_records_of_one_provenance_share_it_from_wherever_they_come(record):
+    others = [
+        Record.from_json(record.to_json()),
+        replace(record, seed=10, provenance={**record.provenance}),
+        pickle.loads(pickle.dumps(record)),
+    ]
+    assert all(other.provenance is record.provenance for other in others)
+    assert pickle.loads(pickle.dumps(record)).to_json() == record.to_json()
+
+
+@given(RECORDS)
+def test_a_number_of_a_part_takes_eight_bytes_and_keeps_its_bits(record):
+    numbers = [0.1, float("nan"), -0.0, 5e-324]
+    kept = replace(record, parts={"mse": {"frame": numbers}})
+    for each in (kept, Record.from_json(kept.to_json())):
+        assert memoryview(each.parts["mse"]["frame"]).nbytes == 8 * len(numbers)
+        assert list(map(repr, each.parts["mse"]["frame"])) == list(map(repr, numbers))
 
 
 @given(st.text(st.characters(max_codepoint=0xA0)))
