@@ -7,6 +7,7 @@ import pytest
 
 from mocapbench.benchmark import TASKS, Seeds, archive_at
 from mocapbench.benchmark.cli.main import main
+from mocapbench.benchmark.runs import keys
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.plan_document import PlannedJob, plan_document
@@ -85,7 +86,7 @@ def forget():
     """Return a function after which digests are computed anew, as in a fresh process."""
 
     def forget():
-        for module in (digest, reading, own_code):
+        for module in (digest, reading, own_code, keys):
             for value in vars(module).values():
                 if hasattr(value, "cache_clear"):
                     value.cache_clear()
