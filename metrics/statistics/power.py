@@ -131,9 +131,9 @@ def _power(n: float, away: float, alpha: float) -> float:
     """Return the power at the noncentrality ``away``, 0 or more."""
     freedom = n - 1.0
     critical = special.stdtrit(freedom, 1.0 - alpha / 2.0)
-    above = 1.0 - special.nctdtr(freedom, away, critical)
     # SciPy has NaN in place of some probabilities below 1e-14.
-    return float(above + np.nan_to_num(special.nctdtr(freedom, away, -critical)))
+    below, beyond = np.nan_to_num(special.nctdtr(freedom, away, [critical, -critical]))
+    return float(1.0 - below + beyond)
 
 
 def _require_test(n: float, deviation: float, alpha: float) -> None:

@@ -120,3 +120,8 @@ def test_a_power_of_at_most_the_level_or_of_1_is_refused(power):
     for plan in (detectable_difference, units_needed):
         with pytest.raises(ValueError, match="a power between the level"):
             plan(10, 1.0, 0.05, power)
+
+
+def test_what_nobody_could_miss_is_found_for_sure():
+    """SciPy has no number for the probability, below 1e-290, to miss it."""
+    assert power_of_t_test(163, 3.0, 1.0, 0.125) == 1.0
