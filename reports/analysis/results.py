@@ -89,17 +89,20 @@ class TaskResults:
 
     def find_failures(self, case: str, label: str, metric: str) -> list[Any]:
         """Return the failures that cost a score of ``metric``: another may be what failed."""
-        folds = self._scored_folds.get((case, label, metric), set())
+        folds = self.values_by_fold(case, label, metric)
         found = self.failures.get((case, label), ())
         return [failure for failure in found if failure.fold not in folds]
 
+    def values_by_fold(self, case: str, label: str, metric: str) -> Mapping[int, float]:
+        """Return the scores of a metric by fold, without folds that have none."""
+        row = self._values.get((metric, label, case), ())
+        values = zip(self.fold_numbers, row, strict=False)
+        return {fold: float(value) for fold, value in values if np.isfinite(value)}
+
     @cached_property
-    def _scored_folds(self) -> Mapping[tuple[str, str, str], set[int]]:
-        folds: dict[tuple[str, str, str], set[int]] = {}
-        columns = (self.scores[name].tolist() for name in ("case", "label", "metric", "fold"))
-        for case, label, metric, fold in zip(*columns, strict=True):
-            folds.setdefault((case, label, metric), set()).add(fold)
-        return folds
+    def _values(self) -> Mapping[tuple[str, str, str], Array]:
+        """The rows of ``folds``; a number of each score is all that they take."""
+        return dict(zip(self.folds.index, self.folds.to_numpy(), strict=True))
 
     def estimate(self, case: str, label: str, metric: str) -> FoldMean | None:
         """Return the mean over folds, or None where the label has no score."""

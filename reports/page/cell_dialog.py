@@ -73,13 +73,13 @@ def _describe(info: MetricInfo) -> list[str]:
 
 def _encode_rows(results: TaskResults, origins: Origins, shared: Places) -> Iterator[list[Any]]:
     """Yield the values of each cell, as `COLUMNS` names them."""
-    metrics, values = results.layout.page.metrics, _collect_values(results)
+    metrics = results.layout.page.metrics
     published = {(p.case.name, p.label, p.metric): p for p in every_comparison(results)}
     for cell, jobs in _collect_jobs(results).items():
         origin = origins.get((results.layout.name, *cell), _UNKNOWN)
         failures = results.failures.get(cell, ())
         scores = [
-            (results.estimate(*at), [values.get((*at, job[0])) for job in jobs], published.get(at))
+            (results.estimate(*at), _values_of(results, at, jobs), published.get(at))
             for at in ((*cell, metric) for metric in metrics)
         ]
         yield [
@@ -87,6 +87,12 @@ def _encode_rows(results: TaskResults, origins: Origins, shared: Places) -> Iter
             [[f.fold, shared[f.status], shared[f.message], f.id] for f in failures],
             [_encode_score(*score, shared) for score in scores],
         ]
+
+
+def _values_of(results: TaskResults, at: tuple[str, str, str], jobs: Jobs) -> list[float | None]:
+    """Return the value of each job at a case, a label and a metric."""
+    values = results.values_by_fold(*at)
+    return [values.get(job[0]) for job in jobs]
 
 
 def _encode_jobs(cell: tuple[str, str], jobs: Jobs, origin: Origin, shared: Places) -> list[Any]:
@@ -129,12 +135,6 @@ def _collect_jobs(results: TaskResults) -> dict[tuple[str, str], Jobs]:
     for case, label, *job in results.records[[*names, *costs]].itertuples(index=False, name=None):
         cells[case, label].append(tuple(job))
     return {cell: sorted(jobs, key=lambda job: job[0]) for cell, jobs in cells.items() if jobs}
-
-
-def _collect_values(results: TaskResults) -> Mapping[tuple[Any, ...], float]:
-    """Return the finite values by case, label, metric and fold."""
-    address = [results.scores[name].tolist() for name in ("case", "label", "metric", "fold")]
-    return dict(zip(zip(*address, strict=True), results.scores["value"].tolist(), strict=True))
 
 
 def _round_digits(value: float | None, digits: int = 6) -> float | None:
