@@ -85,8 +85,8 @@ def numeric(cells: Sequence[str], decimal: str = ".") -> list[float]:
             raise ValueError("another decimal mark")
         cells = [cell.replace(decimal, ".") for cell in cells]
     try:
-        return list(map(float, cells))
-    except ValueError:  # much slower
+        return [float(cell) if cell else nan for cell in cells]
+    except ValueError:  # much slower, and gaps are empty cells in most files
         return [nan if is_missing(cell) else float(cell) for cell in cells]
 
 
