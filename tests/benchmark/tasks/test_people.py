@@ -1,5 +1,7 @@
 """The tasks of many people: what is hidden, who is learnt from, and that nothing leaks."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -195,7 +197,13 @@ def predict(problem, label, task):
 def check_predictions(name, regime, label):
     task = TASKS.get(name)
     one, other = perturb_hidden(task, f"synthetic 0.5 s {regime}", 4)
-    np.testing.assert_array_equal(predict(one, label, task), predict(other, label, task))
+    try:
+        predicted = predict(one, label, task)
+    except ValueError as error:  # it needs longer stretches than are visible
+        with pytest.raises(ValueError, match=re.escape(str(error))):
+            predict(other, label, task)
+    else:
+        np.testing.assert_array_equal(predicted, predict(other, label, task))
 
 
 @pytest.mark.parametrize("label", FAST)
@@ -207,10 +215,10 @@ def test_predictions_do_not_change_when_hidden_values_do(name, label):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("regime", REGIMES[:4])
+@pytest.mark.parametrize("regime", ["own", "3 strangers"])
 @pytest.mark.parametrize("name", CLOSED)
 def test_predictions_of_all_models_do_not_change_when_hidden_values_do(name, regime):
-    left_out = set(TASKS.get(name).profile("quick").opt_in)
+    left_out = set(TASKS.get(name).profile("paper").opt_in)
     for entrant in entrants(TASKS.get(name)):
         if entrant.label not in left_out:
             check_predictions(name, regime, entrant.label)
