@@ -56,7 +56,7 @@ def test_what_tells_two_rows_of_one_address_apart_is_in_the_table():
     assert (row["version"], row["seed"], row["key"], row["value"]) == (1, 3, "k", 2.0)
 
 
-def test_a_table_of_many_scores_takes_less_than_500_bytes_a_score_while_it_is_made():
+def test_a_table_of_many_scores_takes_less_than_600_bytes_a_score_while_it_is_made():
     n_records, n_scores = 300, 20
     scores = {f"metric {number}": float(number) for number in range(n_scores)}
     records = [replace(_record({}), key=f"{k}", scores=scores) for k in range(n_records)]
@@ -65,4 +65,4 @@ def test_a_table_of_many_scores_takes_less_than_500_bytes_a_score_while_it_is_ma
     score_table(records)
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert most < 500 * n_records * n_scores
+    assert most < 600 * n_records * n_scores
