@@ -61,7 +61,7 @@ def fit_contents(
     """
     return {
         "problem": [*seeds.address, seeds.root, dict(digests)],
-        "posed by": _problem(case),
+        "posed by": _digest_problem(case),
         "training": case.training_in(seeds.fold),
         "entrant": [model.__qualname__, dict(parameters)],
         "source": [
@@ -90,14 +90,18 @@ def training_contents(fitted: Mapping[str, Any], seeds: Seeds) -> Mapping[str, A
 
 
 @cache  # it is that of all jobs of a case
-def _problem(case: Case) -> Any:
-    """Describe what poses the problem; where cases share it, without the references of each."""
+def _digest_problem(case: Case) -> str:
+    """Return the digest of what poses the problem; where cases share it, without references.
+
+    What tells people from strangers alone has hundreds of names.
+    """
     match case.problem:
         case partial(func=function, args=args, keywords=keywords) if case.shares_problem:
             shared = {name: value for name, value in keywords.items() if name != "references"}
-            return describe_value(partial(function, *args, **shared), _FITTING)
+            described = describe_value(partial(function, *args, **shared), _FITTING)
         case function:
-            return describe_value(function, _FITTING)
+            described = describe_value(function, _FITTING)
+    return key_of(described)
 
 
 @cache
@@ -129,7 +133,7 @@ def score_contents(
     return {"fit": fit, "metrics": metrics, "scored against": [case, dict(references)]}
 
 
-def key_of(contents: Mapping[str, Any]) -> str:
+def key_of(contents: Any) -> str:
     """Return the key that covers ``contents``."""
     canonical = json.dumps(contents, sort_keys=True)
     return hashlib.sha256(canonical.encode()).hexdigest()

@@ -161,7 +161,7 @@ FIT_PATH = [
     ("baselines.common.scaling", "toy-interpolation-1", "mohgp"),
     ("baselines.common.shortest_path", "missing-frames", "pose-viterbi"),
     ("baselines.common.signs", "toy-interpolation-1", "mohgp"),
-    ("baselines.gp.solvers.threads", "toy-interpolation-1", "mohgp"),
+    ("baselines.gp.solvers.solver", "toy-interpolation-1", "mohgp"),
     ("baselines.common.transitions", "missing-frames", "knn"),
     ("baselines.common.validation", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.prior.kernels", "toy-interpolation-1", "mohgp"),
