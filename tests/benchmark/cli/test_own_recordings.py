@@ -169,7 +169,8 @@ def test_a_damaged_task_in_a_plan_is_said_to_be_that(cli, own, task_file, tmp_pa
     document = json.loads(plan.read_text())
     plan.write_text(json.dumps({**document, "task_files": [{"file": "my.toml"}]}))
     assert cli("report", "--out", tmp_path / "run") == 2
-    assert "holds a damaged task file; run `mocapbench run` with --task-file" in cli.printed
+    assert "at task_files[0], expected the entry text, got none" in cli.printed
+    assert "run `mocapbench run` again" in cli.printed
 
 
 def test_other_formats_run_and_skeletons_give_centimetres(own, records, tmp_path):
