@@ -65,7 +65,8 @@ def _means(path, task):
 
 @pytest.mark.parametrize("name", TASKS.names())
 def test_rankings_are_those_of_the_stored_values(texts, tables, goldens, name):
-    means = _means(goldens / "quick" / f"{name}.csv", name)
+    stored = (goldens / profile / f"{name}.csv" for profile in ("quick", "smoke"))
+    means = _means(next(path for path in stored if path.exists()), name)
     found = [
         rows for _, rows in tables(texts["tasks"][name]) if rows[0][:2] == ["place", "entrant"]
     ]
