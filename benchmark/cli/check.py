@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench.basics.whole_files import write_files
-from mocapbench.basics.words import encodable
+from mocapbench.basics.whole_files import encode_text, write_files
 from mocapbench.benchmark import gate
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
@@ -146,7 +145,7 @@ def _show(result: Check, console: LiteralConsole) -> None:
 def _write(result: Check, markdown: Path | None, junit: Path | None) -> None:
     contents = {}
     if markdown is not None:
-        contents[markdown] = encodable(gate.markdown(result)).encode()
+        contents[markdown] = encode_text(gate.markdown(result))
     if junit is not None:
         contents[junit] = gate.junit(result)
     write_files(contents)

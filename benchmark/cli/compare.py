@@ -10,8 +10,7 @@ import typer
 
 from mocapbench import benchmark as bench
 from mocapbench import reports
-from mocapbench.basics.whole_files import write_files
-from mocapbench.basics.words import encodable
+from mocapbench.basics.whole_files import encode_text, write_files
 from mocapbench.benchmark import comparison
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
@@ -68,9 +67,9 @@ def compare(
         console.print(note, highlight=False)
     contents = {}
     if markdown is not None:
-        contents[markdown] = encodable(comparison.markdown(rows, sides)).encode()
+        contents[markdown] = encode_text(comparison.markdown(rows, sides))
     if csv is not None:
-        contents[csv] = reports.csv_text(comparison.tidy(rows, sides)).encode()
+        contents[csv] = encode_text(reports.csv_text(comparison.tidy(rows, sides)))
     write_files(contents)
 
 

@@ -18,8 +18,8 @@ from typing import Annotated, Any
 from msgspec import Meta
 
 from mocapbench.basics.temporaries import sweep
-from mocapbench.basics.whole_files import write_together
-from mocapbench.basics.words import encodable, printable
+from mocapbench.basics.whole_files import encode_text, write_together
+from mocapbench.basics.words import printable
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.foreign_files import (
     Finite,
@@ -191,7 +191,7 @@ def _write(
     folder.mkdir(parents=True, exist_ok=True)
     with write_together(folder, "reference", obsolete={*earlier} - files.keys()) as drafts:
         for name, values in files.items():
-            (drafts / name).write_bytes(encodable(_format(values, about)).encode())
+            (drafts / name).write_bytes(encode_text(_format(values, about)))
 
 
 def _format(values: Mapping[Series, Folds], about: Mapping[str, str]) -> str:

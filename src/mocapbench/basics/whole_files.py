@@ -25,6 +25,7 @@ from mocapbench.basics.words import encodable
 __all__ = [
     "LONGEST_NAME",
     "atomic_write",
+    "encode_text",
     "stage_file",
     "write_bytes",
     "write_files",
@@ -90,9 +91,14 @@ def atomic_write(path: Path) -> Iterator[IO[bytes]]:
         yield file
 
 
+def encode_text(text: str) -> bytes:
+    """Return a text as files have it: in UTF-8, lone surrogates escaped."""
+    return encodable(text).encode()
+
+
 def write_text(path: Path, text: str) -> None:
-    """Write ``text`` as UTF-8, whole or not at all; lone surrogates are escaped."""
-    write_bytes(path, encodable(text).encode())
+    """Write ``text``, encoded by `encode_text`, whole or not at all."""
+    write_bytes(path, encode_text(text))
 
 
 def write_bytes(path: Path, content: bytes) -> None:
