@@ -30,7 +30,7 @@ MOST_HOLD_OUTS, ENOUGH_GAPS = 24, 24
 FEWEST_HOLD_OUTS, MOST_ENTRIES = 3, 40_000_000
 """Of long recordings there are fewer: no more than have so many entries (320 MB) in all."""
 EXCERPT, _BESIDE_GAPS = 3000, 10
-"""Frames of an excerpt: so many, or so many times as many as the longest gaps that go together.
+"""Frames of an excerpt: so many, or so many times as many as the longest gap has.
 
 Models that are fitted anew to each part of a long recording have parts of about as many."""
 _REPEATS = 10
@@ -124,8 +124,8 @@ class _Maker:
 
     def make(self) -> HoldOut | None:
         """Return one more hold-out; None if there is no room."""
-        whole = 0, len(self._used)
-        for start, stop in (*self._excerpts, whole):
+        whole = 0, len(self._used)  # where no excerpt has room; of a short recording the only one
+        for start, stop in dict.fromkeys((*self._excerpts, whole)):
             layout = EpisodeLayout(~self._problem.given.visible, self._used, self._rng)
             layout.confine(start, stop)
             self._place_copies(layout)
