@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import isfinite, nan
 from typing import Any
 
@@ -53,14 +53,18 @@ def solved_problem(
     if not _has_same_recordings(case, records[0], archive):
         return None
     problem = case.problem(Seeds(records[0].seed, address), archive)
-    arrays = {k: v for k, v in arrays.items() if _are_solution(problem, v, k, store)}
-    if not arrays:
+    solutions = {
+        label: solution
+        for label, stored in arrays.items()
+        for solution in _read_solution(problem, stored, label, store)
+    }
+    if not solutions:
         return None
     return Solved(
         task.name,
         problem,
-        {label: problem.from_arrays(of_label) for label, of_label in arrays.items()},
-        arrays,
+        solutions,
+        {label: arrays[label] for label in solutions},
         task.page.published_models,
         ranking=_ranking(task, records),
         metric=METRICS.get(task.page.metrics[0]).title,
@@ -69,14 +73,17 @@ def solved_problem(
     )
 
 
-def _are_solution(problem: Problem[Any], arrays: Arrays, label: str, store: RunDirectory) -> bool:
-    """Return whether stored arrays solve a problem; if not, the store says so of its damage."""
+def _read_solution(
+    problem: Problem[Any], arrays: Arrays, label: str, store: RunDirectory
+) -> Iterator[Any]:
+    """Yield the solution in stored arrays; if they are none, the store says so of its damage."""
     try:
-        problem.outcome(problem.from_arrays(arrays))
+        solution = problem.from_arrays(arrays)
+        problem.outcome(solution)  # which refuses what solves another problem
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         store.damaged.append(f"predictions of {label}: {reason(error)}")
-        return False
-    return True
+    else:
+        yield solution
 
 
 def _ranking(task: Task, records: Sequence[Record]) -> tuple[str, ...]:
