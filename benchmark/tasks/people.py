@@ -123,7 +123,7 @@ def people_problem(
     values: str,
     hidden: str,
     seconds: float,
-    folds: tuple[tuple[str, tuple[str, ...]], ...],
+    regime: str,
 ) -> ImputeProblem:
     """Hide gaps of the recording of a fold.
 
@@ -139,15 +139,16 @@ def people_problem(
         Keys of `VALUES` and `HIDDEN`.
     seconds : float
         The length of a gap.
-    folds : tuple of (str, tuple of str)
-        Of each fold, in turn, the recording to fill and those to learn from. If there are none of
-        these, models learn from what is visible of the one to fill.
+    regime : str
+        ``alone``, ``own`` or, of 3 for instance, ``3 strangers``. Alone, models learn from what is
+        visible of the recording to fill.
 
     Raises
     ------
     FormatError
         If a recording is shorter than a gap, or has no skeleton.
     """
+    _, folds = _list_folds(people, regime)
     tested, training = folds[seeds.fold % len(folds)]
     features, place = VALUES[values]
     recording = _read(people, tested, features, archive)
@@ -256,7 +257,7 @@ def _build_case(people: People, values: str, hidden: str, seconds: float, regime
             values=values,
             hidden=hidden,
             seconds=seconds,
-            folds=folds,
+            regime=regime,
         ),
         {"learnt from": learnt_from, "recordings": most, "seconds": seconds},
         synthetic=synthetic,
