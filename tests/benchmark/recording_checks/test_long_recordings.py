@@ -27,14 +27,20 @@ def swinging(n_frames, n_markers):
 
 
 @pytest.mark.parametrize("n_steps", [1, 4, 9, 300])
-def test_the_median_of_steps_around_each_is_that_of_pandas(n_steps, monkeypatch):
-    monkeypatch.setattr(paths, "_BLOCK", 64)
+def test_the_excess_of_a_step_is_that_over_the_median_of_the_steps_around_it(n_steps):
     rng = np.random.default_rng(0)
-    steps = np.where(rng.random((n_steps, 5, 3)) < 0.3, np.nan, rng.normal(size=(n_steps, 5, 3)))
+    shape = (n_steps + 1, 5, 3)
+    positions = np.where(rng.random(shape) < 0.3, np.nan, rng.normal(size=shape))
+    steps = np.diff(positions, axis=0)
     columns = pd.DataFrame(steps.reshape(n_steps, 15))
-    expected = columns.rolling(9, min_periods=1, center=True).median()
-    found = paths._take_rolling_median(steps).reshape(n_steps, 15)
-    np.testing.assert_array_equal(found, expected.to_numpy())
+    median = columns.rolling(9, min_periods=1, center=True).median().to_numpy()
+    names, none = tuple("ABCDE"), np.zeros(n_steps, dtype=bool)
+    found = paths.MotionPaths(names, positions, np.zeros(5), 120.0, none)
+    for marker in range(5):  # one by one, as all together
+        np.testing.assert_array_equal(
+            found.measure_excess(np.array([marker]))[:, 0],
+            steps[:, marker] - median.reshape(steps.shape)[:, marker],
+        )
 
 
 def test_the_extent_is_the_same_whichever_frames_are_looked_at_together(monkeypatch):
