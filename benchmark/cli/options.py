@@ -15,7 +15,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import is_writable
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark import RunDirectory, TaskFile
+    from mocapbench.benchmark import Record, RunDirectory, TaskFile
     from mocapbench.datasets import Archive
 
 __all__ = [
@@ -26,6 +26,7 @@ __all__ = [
     "Plugins",
     "cases_named",
     "load_plugins",
+    "load_records",
     "load_tasks",
     "open_archive",
     "require_writable",
@@ -96,6 +97,13 @@ def load_tasks(store: RunDirectory) -> tuple[TaskFile, ...]:
     files = bench.planned_task_files(store.load_plan())
     bench.add_tasks(files)
     return files
+
+
+def load_records(store: RunDirectory) -> list[Record]:
+    """Return the records of the last run into a directory, of which there must be some."""
+    if not (records := store.planned()):
+        raise UsageError(f"{store.path} holds no record of its last run; run `mocapbench run`")
+    return records
 
 
 def open_archive(data_dir: Path | None, task_files: Sequence[TaskFile] = ()) -> Archive:

@@ -17,12 +17,12 @@ from mocapbench.benchmark.cli.options import (
     Names,
     Plugins,
     load_plugins,
+    load_records,
     load_tasks,
     require_writable,
     show_left_out,
     split,
 )
-from mocapbench.benchmark.errors import UsageError
 
 __all__ = ["app"]
 
@@ -62,10 +62,8 @@ def power(
     load_plugins(plugin)
     store, console = bench.RunDirectory(run), LiteralConsole()
     load_tasks(store)
-    if not (records := store.planned()):
-        raise UsageError(f"{run} holds no record of its last run; run `mocapbench run`")
     spreads = comparison.list_spreads(
-        bench.bundle(records, store.load_plan()["provenance"]),
+        bench.bundle(load_records(store), store.load_plan()["provenance"]),
         tasks=split(tasks),
         metric=metric,
         models=None if models is None else split(models),

@@ -19,6 +19,7 @@ from mocapbench.benchmark.cli.options import (
     Out,
     Plugins,
     load_plugins,
+    load_records,
     load_tasks,
     open_archive,
     require_writable,
@@ -61,9 +62,7 @@ def report(
 
 def _report_one(out: Path, to: Path | None, data_dir: Path | None) -> None:
     store, console = bench.RunDirectory(out), LiteralConsole()
-    plan, records, task_files = store.load_plan(), store.planned(), load_tasks(store)
-    if not records:
-        raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
+    plan, task_files, records = store.load_plan(), load_tasks(store), load_records(store)
     archive, path = open_archive(data_dir, task_files), to or out / "report.html"
     write_report(records, plan["provenance"], store, archive, path, console)
 
