@@ -16,7 +16,7 @@ from mocapbench.benchmark.files import ENTRIES, GAPS, require_short_names, requi
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gaps import Gap, mask_gaps
 from mocapbench.benchmark.filling.input_files import InputFile
-from mocapbench.benchmark.runs.execution.scratch import scratch_folder
+from mocapbench.benchmark.runs.execution.scratch import scratch_folder, sweep_scratch
 from mocapbench.datasets import FrameByChannel
 from mocapbench.reports import csv_text
 
@@ -48,6 +48,7 @@ def name_output_files(files: Sequence[Path], folder: Path) -> list[OutputPaths]:
         raise UsageError(f"--out: expected a folder, got the file {folder}; name another")
     require_writable_folder("--out", folder)
     sweep(folder)  # which finishes what a killed process began
+    sweep_scratch()  # here, since what that process finished is not filled again
     outputs = [_name_outputs_of(file, folder) for file in files]
     paths = [path for of_one_file in outputs for path in of_one_file]
     if len(set(paths)) < len(paths):

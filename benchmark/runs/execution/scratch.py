@@ -12,7 +12,7 @@ from pathlib import Path
 
 from mocapbench.basics.temporaries import sweep, temporary_folder
 
-__all__ = ["process_folder", "scratch_folder"]
+__all__ = ["process_folder", "scratch_folder", "sweep_scratch"]
 
 _LAST = -200
 """Of what is done when a process ends: after `multiprocessing` has deleted its own files."""
@@ -21,10 +21,14 @@ _LAST = -200
 @contextmanager
 def scratch_folder() -> Iterator[Path]:
     """Make a folder of temporary files, which goes with the context; those left behind go now."""
-    root = Path(tempfile.gettempdir())
-    sweep(root)
-    with temporary_folder(root) as folder:
+    sweep_scratch()
+    with temporary_folder(Path(tempfile.gettempdir())) as folder:
         yield folder
+
+
+def sweep_scratch() -> None:
+    """Delete scratch folders that killed processes left behind."""
+    sweep(Path(tempfile.gettempdir()))
 
 
 def process_folder() -> Path:

@@ -5,6 +5,7 @@ import glob
 import os
 import re
 import shutil
+import tempfile
 from pathlib import Path
 
 import ezc3d
@@ -15,6 +16,7 @@ import vendor_tables
 from c3d_files import text, write_bytes
 from shared_files import shared
 
+from mocapbench.basics.temporaries import PREFIX
 from mocapbench.benchmark import FORMATS, format_for
 from mocapbench.benchmark.cli import fill as command
 from mocapbench.benchmark.errors import ExitCode
@@ -322,6 +324,19 @@ def test_a_number_for_missing_values_can_be_named(cli, tmp_path, out, word):
 def test_what_marks_missing_values_is_a_word_or_a_number(cli, walk, out, word):
     assert cli("fill", walk, f"--missing={word}", "--model", "linear", "--out", out) == 2
     assert "--missing: expected zeros, held, none or a number such as 9999999, got" in cli.printed
+
+
+def test_what_a_killed_fill_left_goes_even_where_all_is_filled_already(
+    cli, walk, tmp_path, out, monkeypatch
+):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    assert cli("fill", walk, "--model", "linear", "--out", out) == 0
+    left = tmp_path / f"{PREFIX}12345678"
+    left.mkdir()
+    (left / "problem-0").touch()
+    assert cli("fill", walk, "--model", "linear", "--out", out) == 2
+    assert "would be overwritten" in cli.printed
+    assert not left.exists()
 
 
 def test_files_with_nothing_to_fill_are_left_out_and_the_others_filled(cli, walk, tmp_path, out):
