@@ -96,6 +96,9 @@ class TaskPage:
     crossed : tuple of two str, or None
         The columns of the cases that go along the rows and along the columns of the tables, where
         every case is a pair and only one entrant takes part.
+    asks : mapping of str to str
+        Names of cases of many people, and what each asks: the first screen answers it in a sentence
+        of its own.
     along : tuple of str
         The columns of the cases, of numbers, that figures show scores along: a figure each, with
         one panel for the cases that are alike in all other columns.
@@ -125,6 +128,7 @@ class TaskPage:
     exempt: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     crossed: tuple[str, str] | None = None
+    asks: Mapping[str, str] = field(default_factory=dict)
     along: tuple[str, ...] = ()
     illustrated: tuple[str, ...] = ()
     figures: tuple[Figure, ...] = ()

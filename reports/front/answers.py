@@ -1,13 +1,18 @@
-"""A sentence for each question: which model, by what margin, and how sure."""
+"""A sentence for each question: which model, by what margin, and how sure.
+
+What many people are asked comes first. The protocols of papers, which have few, stand below it as
+reproductions, with what was published.
+"""
 
 from __future__ import annotations
 
-import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mocapbench.basics.words import format_count, join_names
+from mocapbench.metrics.base import Direction
+from mocapbench.reports.analysis.comparisons import count_by_source
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import (
     MOST_LEVEL,
@@ -17,8 +22,10 @@ from mocapbench.reports.analysis.standings import (
     next_best,
     standings,
 )
+from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.bundle.task_page import QUESTIONS
 from mocapbench.reports.front.scoreboard import (
+    LONGEST_UNIT,
     board_cells,
     first_metric,
     is_generated,
@@ -26,15 +33,21 @@ from mocapbench.reports.front.scoreboard import (
 )
 from mocapbench.reports.text import apart, number, slug
 
-__all__ = ["TESTED", "answers"]
+__all__ = ["answers"]
 
-TESTED = (Place.BEHIND, Place.INSEPARABLE)
 OF_TOYS = "recover"
 """A question that only generated data can answer, and no user asks."""
 NO_RIVAL = "no rival"
+NOT_TESTED = ("not comparable", "not run")
+"""Verdicts on published values that have none of ours beside them."""
+COMPARED: Mapping[Direction, str] = {
+    Direction.LOWER: "less than",
+    Direction.HIGHER: "more than",
+    Direction.TARGET: "nearer than",
+}
 
-Ranked = tuple[TaskResults, Sequence[Standing]]
-"""A task with its standings by its first metric, best first, one or more."""
+Finding = tuple[TaskResults, str, Sequence[Standing]]
+"""A task, what it asks, and its standings by its first metric, best first, one or more."""
 
 
 def answers(tasks: Sequence[TaskResults]) -> list[dict[str, Any]]:
@@ -44,44 +57,72 @@ def answers(tasks: Sequence[TaskResults]) -> list[dict[str, Any]]:
     -------
     list of dict
         ``question``, the title of it; ``model``, which alone is best in more than half of its
-        tasks, and there better than the reference, empty where none is; ``doubt``, what the tests
-        say of its leads, empty where more than half of its tasks show a lead that is more than
-        chance; ``findings``, the anchor, the title and a sentence of each task, those that the
-        model leads first; ``sure``, what the tests say of the leads.
+        findings, and there better than the reference, empty where none is; ``doubt``, what the
+        tests say of its leads, empty where more than half show a lead that is more than chance;
+        ``findings``, the anchor, the title and a sentence of each, those that the model leads
+        first; ``reproductions``, the same of tasks with published values, which say of the model
+        only where there are no findings; ``sure``, what the tests say of all leads.
     """
-    standing = [(task, standings(task, first_metric(task))) for task in tasks]
-    ranked = [(task, found) for task, found in standing if found]
+    found = [finding for task in tasks for finding in _find(task)]
     return [
         _answer(title, group)
         for name, (title, _) in QUESTIONS.items()
-        if name != OF_TOYS
-        and (group := [one for one in ranked if one[0].layout.page.question == name])
+        if name != OF_TOYS and (group := [one for one in found if _question(one) == name])
     ]
 
 
-def _answer(question: str, group: Sequence[Ranked]) -> dict[str, Any]:
-    leaders = Counter(
-        found[0].label
-        for task, found in group
-        if not level_with_best(found) and not _is_beaten(task, found)
-    )
+def _find(results: TaskResults) -> list[Finding]:
+    """Return what a task says: of each case that many people are asked, else of all cases."""
+    metric, asks = first_metric(results), results.layout.page.asks
+    asked: list[tuple[str, list[CaseLayout] | None]] = [
+        (asks[case.name] + _mark_generated(results), [case])
+        for case in results.representative_cases(metric)
+        if case.name in asks
+    ]
+    whole = [(results.layout.page.short + _mark_generated(results), None)]
+    found = [(results, text, standings(results, metric, cases)) for text, cases in asked or whole]
+    return [finding for finding in found if finding[2]]
+
+
+def _mark_generated(results: TaskResults) -> str:
+    return " (synthetic)" if is_generated(results) else ""
+
+
+def _question(finding: Finding) -> str:
+    return finding[0].layout.page.question
+
+
+def _answer(question: str, group: Sequence[Finding]) -> dict[str, Any]:
+    papers = [finding for finding in group if finding[0].published]
+    deciding = [finding for finding in group if not finding[0].published] or papers
+    leaders = Counter(filter(None, map(_find_leader, deciding)))
     model, most = leaders.most_common(1)[0] if leaders else ("", 0)
-    named = model if 2 * most > len(group) else ""
-    first = sorted(group, key=lambda one: one[1][0].label != named)
-    alone = [found for _, found in first if not level_with_best(found)]
+    named = model if 2 * most > len(deciding) else ""
+    alone = [finding for finding in group if not level_with_best(finding[2])]
+    first, below = (
+        sorted(some, key=lambda finding: finding[2][0].label != named)
+        for some in ([one for one in group if one not in papers], papers)
+    )
     return {
         "question": question,
         "model": named,
-        "doubt": _doubt(named, alone, len(group)) if named else "",
-        "findings": [_describe_task(*one) for one in first],
-        "sure": _sure([_lead(found) for found in alone]),
+        "doubt": _doubt(named, deciding) if named else "",
+        "findings": [(*_head(one), _describe(one)) for one in first],
+        "reproductions": [(*_head(one), _describe(one) + _count_published(one)) for one in below],
+        "sure": _sure([_lead(finding) for finding in alone]),
     }
 
 
-def _doubt(model: str, alone: Sequence[Sequence[Standing]], n_tasks: int) -> str:
-    """Return why it is not shown that ``model`` is best in more than half of the tasks."""
-    leads = [_lead(found) for found in alone if found[0].label == model]
-    if 2 * leads.count(Place.BEHIND) > n_tasks:
+def _find_leader(finding: Finding) -> str:
+    """Return the model that alone is best, and better than the reference; empty without one."""
+    results, _, found = finding
+    return "" if level_with_best(found) or _is_beaten(results, found) else found[0].label
+
+
+def _doubt(model: str, deciding: Sequence[Finding]) -> str:
+    """Return why it is not shown that ``model`` is best in more than half of the findings."""
+    leads = [_lead(finding) for finding in deciding if _find_leader(finding) == model]
+    if 2 * leads.count(Place.BEHIND) > len(deciding):
         return ""
     doubts = [place.value for place in (Place.INSEPARABLE, Place.UNTESTED) if place in leads]
     return next(iter(doubts), NO_RIVAL)
@@ -89,44 +130,72 @@ def _doubt(model: str, alone: Sequence[Sequence[Standing]], n_tasks: int) -> str
 
 def _sure(leads: Sequence[Place | None]) -> str:
     """Return how many leads are more than chance, how many may be chance, how many not tested."""
-    counts = [(leads.count(place), place) for place in (*TESTED, Place.UNTESTED)]
+    counts = [
+        (leads.count(place), place) for place in (Place.BEHIND, Place.INSEPARABLE, Place.UNTESTED)
+    ]
     parts = "; ".join(f"{count} {place.value}" for count, place in counts if count)
     alone = NO_RIVAL if leads else "no lead"
     return f"{format_count(len(leads), 'lead')}: {parts}" if parts else alone
 
 
-def _lead(found: Sequence[Standing]) -> Place | None:
+def _lead(finding: Finding) -> Place | None:
     """Return what the test says of the lead; None without a rival."""
-    second = next_best(found)
+    second = next_best(finding[2])
     return second.standing if second else None
 
 
 def _is_beaten(results: TaskResults, found: Sequence[Standing]) -> bool:
-    """Return whether the best model is no better than the task's reference."""
+    """Return whether the best model is no better than the task's reference, over all cases."""
     return board_cells(results)[found[0].label].beaten
 
 
-def _describe_task(results: TaskResults, found: Sequence[Standing]) -> tuple[str, str, str]:
-    """Return the anchor of a task's section, its short title, and what it says."""
-    title = results.layout.page.short + (" (synthetic)" if is_generated(results) else "")
+def _head(finding: Finding) -> tuple[str, str]:
+    """Return the anchor of a task's section, and what is asked."""
+    results, asked, _ = finding
+    return slug("task", results.layout.name), asked
+
+
+def _describe(finding: Finding) -> str:
+    """Return the best model, its mean, and by how much it is better than the next."""
+    results, _, found = finding
     beaten = f"; no better than {reference_of(results)}" if _is_beaten(results, found) else ""
-    return slug("task", results.layout.name), title, _describe_means(results, found) + beaten
+    return _describe_best(results, found) + _describe_lead(results, found) + beaten
 
 
-def _describe_means(results: TaskResults, found: Sequence[Standing]) -> str:
-    """Return the best model, its mean, the next, and the margin."""
-    best, second, level = found[0], next_best(found), level_with_best(found)
+def _describe_best(results: TaskResults, found: Sequence[Standing]) -> str:
+    best, level = found[0], level_with_best(found)
     names = join_names([one.label for one in [best, *level]], MOST_LEVEL)
-    alike = ", alike:" if level else ""
-    places = results.decimals[first_metric(results)]
+    unit = results.metrics[first_metric(results)].unit
+    end = f" {unit}" if 0 < len(unit) <= LONGEST_UNIT else ""
+    return f"{names}{', alike:' if level else ''} {number(best.mean, _places(results, found))}{end}"
+
+
+def _describe_lead(results: TaskResults, found: Sequence[Standing]) -> str:
+    """Return the difference from the next, its interval, and how many units it is over."""
+    second = next_best(found)
     if second is None:
-        return f"{names}{alike} {number(best.mean, places)}"
-    places = apart(best.mean, second.mean, places)
-    mean, following = number(best.mean, places), number(second.mean, places)
-    return f"{names}{alike} {mean}, next {second.label} {following}{_margin(second, places)}"
-
-
-def _margin(second: Standing, places: int) -> str:
-    if math.isnan(second.low):
         return ""
-    return f" (behind by {number(second.low, places)} to {number(second.high, places)})"
+    places, metric = _places(results, found), results.metrics[first_metric(results)]
+    difference, low, high = (
+        number(value, places) for value in (second.difference, second.low, second.high)
+    )
+    tested = second.standing is not Place.UNTESTED
+    sure = f" ({low} to {high})" if tested else ""
+    end = "" if second.standing is Place.BEHIND else f": {second.standing.value}"
+    compared = f"{COMPARED[metric.direction]} {second.label}"
+    return f"; {difference}{sure} {compared}, over {second.units}{end}"
+
+
+def _places(results: TaskResults, found: Sequence[Standing]) -> int:
+    """Return with how many decimals the best differs from the next."""
+    second, places = next_best(found), results.decimals[first_metric(results)]
+    return places if second is None else apart(found[0].mean, second.mean, places)
+
+
+def _count_published(finding: Finding) -> str:
+    """Return how ours compare with published values of the task."""
+    verdicts: Counter[str] = Counter()
+    for counts in count_by_source(finding[0]).values():
+        verdicts.update(counts)
+    shown = [f"{n} {verdict}" for verdict, n in verdicts.items() if n and verdict not in NOT_TESTED]
+    return f"; published: {', '.join(shown)}" if shown else ""

@@ -21,6 +21,7 @@ from mocapbench.reports.text import cell_anchor, number, slug
 __all__ = [
     "FAILED",
     "INCOMPLETE",
+    "LONGEST_UNIT",
     "SHADES",
     "WORSE",
     "BoardCell",
@@ -47,6 +48,7 @@ TRIVIAL = "trivial"
 REFERENCES = "References"
 INTERPOLATION = "best interpolation"
 LONGEST_UNIT = 8
+"""Letters of a unit for which there is room."""
 ARROWS = {Direction.LOWER: "↓", Direction.HIGHER: "↑", Direction.TARGET: "→"}
 
 

@@ -10,10 +10,12 @@ from mocapbench.reports.bundle.task_page import TaskPage
 __all__ = [
     "IN_BETWEENING",
     "IN_BETWEENING_ANGLES",
+    "LEARNT",
     "LOST_LIMB",
     "LOST_LIMB_ANGLES",
     "LOST_MARKERS",
     "LOST_MARKERS_ANGLES",
+    "ask",
 ]
 
 _HIDDEN: Mapping[str, tuple[str, str, str]] = {
@@ -35,6 +37,25 @@ _VALUES: Mapping[str, tuple[str, str, tuple[str, ...]]] = {
     ),
 }
 """By what recordings hold: the end of the title, what it is in a sentence, the metrics."""
+
+LEARNT: Mapping[str, str] = {
+    "alone": "the recording alone",
+    "own": "three others of the person",
+    "10 strangers": "10 of strangers",
+}
+"""What models learn from in what the first screen asks."""
+
+
+def ask(values: str, hidden: str, seconds: float, learnt: str) -> str:
+    """Return what a case asks, by the keys of `_VALUES` and `_HIDDEN`.
+
+    Examples
+    --------
+    >>> ask("positions", "a limb", 1.0, "10 of strangers")
+    'A limb lost for 1 s, learnt from 10 of strangers'
+    """
+    what, measured = hidden.capitalize(), " (angles)" if values == "angles" else ""
+    return f"{what} lost for {seconds:g} s{measured}, learnt from {learnt}"
 
 
 def _describe_page(values: str, hidden: str) -> TaskPage:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from markupsafe import Markup
 
 from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.analysis.units import FoldSample
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, draw_axes, panels
@@ -30,6 +32,7 @@ FEWEST_BANDED = 3
 CAPTION = (
     "intervals are of the {n} models with the least mean, where there are {units} units or more."
 )
+DASHED = "Grey and dashed: the best interpolation, {label}."
 
 
 def curves_along(
@@ -59,16 +62,33 @@ def curves_along(
     groups = {heading: cases for heading, cases in alike.items() if len(cases) > 1}
     if not groups:
         return None
-    labels = [label for label in results.layout.labels if any(label == of for _, of in values)]
+    shown, dashed = _choose_curves(results, metric, {label for _, label in values}, styles)
     drawn = [
-        _Panel(results, metric, column, values).draw(heading, cases, styles)
+        _Panel(results, metric, column, values).draw(heading, cases, shown)
         for heading, cases in groups.items()
     ]
     notes = dict.fromkeys(note for _, note in drawn if note)
-    caption = " ".join([CAPTION.format(n=N_BANDS, units=FEWEST_BANDED), *notes])
-    legend = line_keys({label: styles[label] for label in labels})
+    caption = " ".join([CAPTION.format(n=N_BANDS, units=FEWEST_BANDED), *dashed, *notes])
+    legend = line_keys(shown)
     title = f"{results.metrics[metric].title} along {column}"
     return SvgFigure(title, panels(panel for panel, _ in drawn), legend, caption)
+
+
+def _choose_curves(
+    results: TaskResults, metric: str, scored: Container[str], styles: Mapping[str, DrawingStyle]
+) -> tuple[dict[str, DrawingStyle], list[str]]:
+    """Return the styles of the labels to draw, and what is said of those that are left out.
+
+    Of interpolations beside other models the best alone is drawn, as a line to compare with.
+    """
+    labels = [label for label in results.layout.labels if label in scored]
+    others = [label for label in labels if label not in results.layout.interpolations]
+    ranked = [one.label for one in standings(results, metric) if one.label not in others]
+    if not (others and ranked):
+        return {label: styles[label] for label in labels}, []
+    dashed = {ranked[0]: replace(styles[ranked[0]], hue="hr", shape=1)}
+    shown = {label: styles[label] for label in others}
+    return shown | dashed, [DASHED.format(label=ranked[0])]
 
 
 class _Panel:
@@ -81,7 +101,7 @@ class _Panel:
         self, heading: str, cases: Sequence[CaseLayout], styles: Mapping[str, DrawingStyle]
     ) -> tuple[Markup, str]:
         """Return the panel, and a remark on its axis."""
-        curves = self._curves(cases)
+        curves = self._curves(cases, styles)
         samples = (sample for curve in curves.values() for sample in curve.values())
         y = fit_scale((value for sample in samples for value in sample.values), 0, 1)
         y = type(y)(y.low, y.high, TOP + HEIGHT, TOP)
@@ -100,11 +120,11 @@ class _Panel:
         label = f"{title} along {self.column}: {heading}"
         return draw_axes((x, y), heading, (self.column, title), marks, label), notes
 
-    def _curves(self, cases: Sequence[CaseLayout]) -> Mapping[str, Curve]:
+    def _curves(self, cases: Sequence[CaseLayout], labels: Iterable[str]) -> Mapping[str, Curve]:
         """Return the values by label and place along the column, in ascending order."""
         ordered = sorted(cases, key=lambda case: float(case.columns[self.column]))
         curves: dict[str, dict[float, FoldSample]] = defaultdict(dict)
-        for label in self.results.layout.labels:
+        for label in labels:
             for case in ordered:
                 if (case.name, label) in self.values:
                     place = float(case.columns[self.column])

@@ -19,6 +19,7 @@ from mocapbench.reports.front.scoreboard import (
     scoreboard,
 )
 from mocapbench.reports.front.trust import trust
+from mocapbench.reports.paper.published import published_values
 from mocapbench.reports.text import cell_anchor
 
 NAN = float("nan")
@@ -196,7 +197,7 @@ def test_an_answer_names_the_model_that_leads_its_margin_and_the_test(small):
     (answer,) = answers([results_of(small({"row": CLEAR}))])
     ((anchor, _, text),) = answer["findings"]
     assert answer["model"] == "a"
-    assert text.startswith("a 1.00, next b 9.05 (behind by ")
+    assert text == "a 1.00; 8.05 (7.92 to 8.18) less than b, over 6 folds"
     assert answer["sure"] == "1 lead: 1 more than chance"
     assert anchor == "task-small"
 
@@ -223,10 +224,40 @@ def test_the_head_names_a_model_without_a_doubt_only_where_most_leads_are_more_t
     assert (answer["model"], answer["doubt"]) == ("a", doubt)
 
 
+def test_each_case_that_many_people_are_asked_has_a_sentence_of_its_own(small):
+    rows = {"x": {"a": [1.0], "b": [2.0]}, "y": {"a": [3.0], "b": [1.0]}, "z": {"a": [0.1]}}
+    (answer,) = answers([results_of(small(rows, asks={"y": "Legs", "x": "Arms"}))])
+    assert [(title, text.partition(";")[0]) for _, title, text in answer["findings"]] == [
+        ("Arms", "a 1.00"),
+        ("Legs", "b 1.00"),
+    ]
+    assert (answer["model"], answer["sure"]) == ("", "2 leads: 2 too few to test")
+
+
+def test_where_no_asked_case_ran_the_task_is_told_as_a_whole(small):
+    (answer,) = answers([results_of(small({"x": {"a": [1.0]}}, asks={"y": "Legs"}))])
+    assert [title for _, title, _ in answer["findings"]] == ["Small"]
+
+
+def test_tasks_with_published_values_stand_below_and_do_not_decide_who_is_best(small):
+    """Unless there is nothing else to decide by."""
+    own, other = small({"row": CLEAR}), {"a": CLEAR["b"], "b": CLEAR["a"]}
+    values = published_values("walking-interpolation")
+    reproduced = [
+        replace(results_of(small({"row": other}, task=name)), published=values) for name in "xyz"
+    ]
+    (answer,) = answers([*reproduced, results_of(own)])
+    assert answer["model"] == "a"
+    assert (len(answer["findings"]), len(answer["reproductions"])) == (1, 3)
+    (answer,) = answers(reproduced)
+    assert answer["model"] == "b"
+    assert answer["findings"] == []
+
+
 def test_a_lead_below_the_digits_of_the_scoreboard_is_told_with_more(small):
     results = results_of(small({"row": {"a": [17.304], "b": [17.3046], "c": [20.0]}}))
     (answer,) = answers([results])
-    assert answer["findings"][0][2] == "a 17.304, next b 17.305"
+    assert answer["findings"][0][2] == "a 17.304; 0.001 less than b, over 1 fold: too few to test"
     assert {board_cells(results)[label].text for label in "ab"} == {"17.30"}
 
 
@@ -276,7 +307,10 @@ def test_generated_cases_beside_recordings_enter_no_mean(small):
 @pytest.mark.parametrize(
     ("scores", "said"),
     [
-        ({"a": [1.0], "b": [1.0], "c": [2.0]}, "a and b, alike: 1.00, next c 2.00"),
+        (
+            {"a": [1.0], "b": [1.0], "c": [2.0]},
+            "a and b, alike: 1.00; 1.00 less than c, over 1 fold: too few to test",
+        ),
         ({name: [1.0] for name in "abcde"}, "a, b, c and 2 more, alike: 1.00"),
     ],
 )

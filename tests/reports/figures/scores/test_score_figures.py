@@ -110,6 +110,17 @@ def along(drawn):
 TWO_PANELS = [{"hidden": place, "seconds": s} for place in ("arm", "leg") for s in (0.5, 1.0)]
 
 
+@pytest.mark.parametrize(
+    ("known", "shown", "said"),
+    [(("linear", "nn"), ["knn", "oracle", "linear"], True), (LABELS, [*LABELS], False)],
+)
+def test_of_interpolations_beside_models_the_best_alone_is_drawn(along, known, shown, said):
+    figure = along(TWO_PANELS, interpolations=known)
+    assert [label for label, _, _ in figure.legend] == shown
+    assert ("the best interpolation, linear" in figure.caption) == said
+    assert {label for root in _roots(figure) for label in _models(root)} == {*shown}
+
+
 def test_cases_alike_in_all_other_columns_share_a_panel(along):
     figure = along(TWO_PANELS)
     arm, leg = _roots(figure)
