@@ -149,6 +149,10 @@ class People:
         """Return which person a subject is."""
         return self._rows[self._of_subject(subject)[0]]["person"]
 
+    def shows(self, uri: str) -> str:
+        """Return what a recording shows, as the list has it."""
+        return self._rows[uri]["shows"]
+
     def rate(self, uri: str) -> int:
         """Return how many frames per second a recording has."""
         return int(self._rows[uri]["rate"])
@@ -159,7 +163,11 @@ class People:
 
     def own(self, subject: str) -> tuple[str, ...]:
         """Return addresses of up to three other recordings of a subject, to learn from."""
-        return self._of_subject(subject, "train")[:N_OWN]
+        return self.others(subject)[:N_OWN]
+
+    def others(self, subject: str) -> tuple[str, ...]:
+        """Return addresses of all recordings of a subject that it is not tested on."""
+        return self._of_subject(subject, "train")
 
     def fold(self, subject: str) -> int:
         """Return the group, 0 to 2, with whose people a subject is tested."""

@@ -55,6 +55,8 @@ __all__ = [
     "lost_markers_angles",
     "people_problem",
     "people_tasks",
+    "read_excerpt",
+    "take_angles",
 ]
 
 RATE = 30
@@ -104,7 +106,7 @@ Features = Callable[[Skeleton, Recording], Recording]
 """From a skeleton and a recording of it at 30 frames per second to the values of a problem."""
 
 
-def _take_angles(skeleton: Skeleton, recording: Recording) -> Recording:
+def take_angles(skeleton: Skeleton, recording: Recording) -> Recording:
     """Return 50 channels: joint angles, and the root's translation as differences."""
     del skeleton
     return gpdm_channels(recording)
@@ -112,7 +114,7 @@ def _take_angles(skeleton: Skeleton, recording: Recording) -> Recording:
 
 VALUES: Mapping[str, tuple[Features, Callable[[Skeleton], Body]]] = {
     "positions": (place_on_the_spot, JointPositions),
-    "angles": (_take_angles, JointAngles),
+    "angles": (take_angles, JointAngles),
 }
 """What recordings hold, and what places the joints of it in space."""
 
@@ -153,19 +155,19 @@ def people_problem(
     _, folds = _list_folds(people, regime)
     tested, training = folds[seeds.fold % len(folds)]
     features, place = VALUES[values]
-    recording = _read(people, tested, features, archive)
+    recording = read_excerpt(people, tested, features, archive)
     drawn = Seeds(seeds.root, Address("people", 1, hidden, seeds.fold)).generator("mask")
     starts = _place_gaps(people, recording, round(RATE * seconds), drawn)
     return ImputeProblem.of_one(
         recording,
         _hide_gaps(recording, starts, round(RATE * seconds), HIDDEN[hidden], drawn),
-        tuple(_read(people, uri, features, archive) for uri in training),
+        tuple(read_excerpt(people, uri, features, archive) for uri in training),
         seen_in_fit=not training,
         body=place(archive.skeleton(tested)),
     )
 
 
-def _read(people: People, uri: str, features: Features, archive: Archive) -> Recording:
+def read_excerpt(people: People, uri: str, features: Features, archive: Archive) -> Recording:
     """Return the middle of a recording at 30 frames per second, at most eight seconds."""
     recording, step = archive.recording(uri), people.rate(uri) // RATE
     kept = np.arange(0, len(recording.times), step)

@@ -38,6 +38,7 @@ ENTRANTS = {
     ),
     "missing-frames": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
     "golf-swings": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
+    "unseen-walkers": ("lds", "replay"),
     "upper-body-missing": ("nn", "trivial"),
     "subject-35-missing": ("nn-scaled", "trivial"),
     "style-clustering": ("cyclic-alignment", "k-means"),

@@ -1,0 +1,114 @@
+"""What many people answer, and whether half of them answer the same.
+
+::
+
+    python docs/evidence/people.py RUN [--all]
+
+prints a row for each case of the run that the first screen of its report answers, or for all cases
+of many people: the best model and its mean, by how much it is better than the next with the
+interval, over how many people, and whether the lead is decided at 5 % after Holm's correction, over
+rivals and then over rows. Then, of people with odd and with even subject numbers, who is best, and
+by how much the best model of all is better than the next of all. Last, how many leads agree.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from mocapbench import benchmark as bench
+from mocapbench.metrics.statistics import ALPHA, holm
+from mocapbench.reports import CaseLayout
+from mocapbench.reports.analysis.cells import cells
+from mocapbench.reports.analysis.contrasts import PairContrast, contrasts
+from mocapbench.reports.analysis.results import TaskResults, task_results
+from mocapbench.reports.analysis.standings import next_best, standings
+
+HALVES = {"odd": 1, "even": 0}
+
+
+def main(run: str, *options: str) -> None:
+    """Print the table of a run."""
+    table = pd.DataFrame(list_leads(Path(run), whole="--all" in options))
+    table["decided"] = np.where(holm(table.pop("p")) <= ALPHA, "yes", "no")
+    agree = table.pop("agrees")
+    print(markdown(table))
+    print(
+        f"\n{len(table)} leads, {(table['decided'] == 'yes').sum()} decided; the same way in both "
+        f"halves: {agree.sum()}, of the decided {(agree & (table['decided'] == 'yes')).sum()}"
+    )
+
+
+def list_leads(run: Path, *, whole: bool) -> Iterator[dict[str, object]]:
+    """Yield a row for each case in which a model leads."""
+    store = bench.RunDirectory(run)
+    bundle = bench.bundle(store.planned(), store.load_plan()["provenance"])
+    for results in (task_results(bundle, layout) for layout in bundle.layouts):
+        for case in find_cases(results, whole):
+            metric = results.layout.page.metrics[0]
+            best, second = standings(results, metric, [case])[0], find_next(results, case)
+            if second:
+                yield describe_lead(results, case, best.label, second)
+
+
+def find_cases(results: TaskResults, whole: bool) -> Iterator[CaseLayout]:
+    """Yield the cases that the first screen answers, or all whose folds are of many people."""
+    for case in results.representative_cases(results.layout.page.metrics[0]):
+        if case.name in results.layout.page.asks or (whole and case.subjects):
+            yield case
+
+
+def find_next(results: TaskResults, case: CaseLayout) -> str:
+    """Return the model that is next to the best, empty where there is none."""
+    second = next_best(standings(results, results.layout.page.metrics[0], [case]))
+    return second.label if second else ""
+
+
+def compare(results: TaskResults, case: CaseLayout, one: str, other: str) -> PairContrast:
+    """Return by how much one model is better than another in a case."""
+    return contrasts(cells(results, results.layout.page.metrics[0], [case]))[one, other]
+
+
+def describe_lead(
+    results: TaskResults, case: CaseLayout, best: str, second: str
+) -> dict[str, object]:
+    """Return a row: the lead over all people, and the same in each half of them."""
+    lead = compare(results, case, best, second)
+    row = {
+        "task": f"`{results.layout.name}`",
+        "case": case.name,
+        "best": f"`{best}` {lead.first:.2f}",
+        "next": f"`{second}`",
+        "better by": f"{lead.advantage:.2f} ({lead.low:.2f} to {lead.high:.2f})",
+        "people": lead.n,
+        "p": lead.t_p_holm,
+        "agrees": True,
+    }
+    for name, remainder in HALVES.items():
+        half = keep_people(results, case, remainder)
+        leader = standings(half, results.layout.page.metrics[0], [case])[0].label
+        within = compare(half, case, best, second).advantage
+        row[name] = f"`{leader}`, {within:.2f}"
+        row["agrees"] = bool(row["agrees"]) and within > 0
+    return row
+
+
+def keep_people(results: TaskResults, case: CaseLayout, remainder: int) -> TaskResults:
+    """Return the results of people whose number, divided by two, leaves ``remainder``."""
+    kept = [fold for fold in results.fold_numbers if int(case.subject(fold)) % 2 == remainder]
+    return replace(results, folds=results.folds[kept])
+
+
+def markdown(table: pd.DataFrame) -> str:
+    """Return a table in Markdown."""
+    rows = [table.columns, ["---"] * table.shape[1], *table.to_numpy()]
+    return "\n".join(f"| {' | '.join(map(str, row))} |" for row in rows)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
