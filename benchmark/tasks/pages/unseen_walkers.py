@@ -20,6 +20,7 @@ UNSEEN_WALKERS_PAGE = TaskPage(
     question="invent-motion",
     metrics=("mcc", "mlc", "variance_ratio", "sample_npss", "sample_jerk_ratio"),
     along=("recordings",),
+    illustrated=("10 walks", "3 walks", "synthetic 3 walks"),
     figures=(draw_sampled_motion,),
     remarks=(
         "A person’s references are up to five: the beginnings of the recordings that the "
