@@ -23,6 +23,7 @@ FAMILIES = (
 """The families of our models, in the order of a report's rows; a plug-in may declare others."""
 
 _YOURS = FAMILIES.index("Your models")
+_SEVERAL = FAMILIES.index("Several models")
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,11 @@ class ModelInfo:
     def is_ours(self) -> bool:
         """Whether its family is one of ours: a model of others has none, or one of its own."""
         return self.family in FAMILIES and self.family != FAMILIES[_YOURS]
+
+    @property
+    def is_several(self) -> bool:
+        """Whether it chooses or averages other models."""
+        return self.family == FAMILIES[_SEVERAL]
 
 
 def in_families(models: Mapping[str, ModelInfo]) -> dict[str, list[str]]:

@@ -80,8 +80,15 @@ def _find(results: TaskResults) -> list[Finding]:
         if case.name in asks
     ]
     whole = [(results.layout.page.short + _mark_generated(results), None)]
-    found = [(results, text, standings(results, metric, cases)) for text, cases in asked or whole]
-    return [finding for finding in found if finding[2]]
+    found = [(text, standings(results, metric, cases)) for text, cases in asked or whole]
+    return [(results, text, _drop_choosers(results, ranked)) for text, ranked in found if ranked]
+
+
+def _drop_choosers(results: TaskResults, found: Sequence[Standing]) -> Sequence[Standing]:
+    """Return the standings without models that chose the best one, and nothing else."""
+    level = [found[0], *level_with_best(found)]
+    chosen = [one for one in level if not results.layout.model(one.label).is_several]
+    return [one for one in found if one in chosen or one not in level] if chosen else found
 
 
 def _mark_generated(results: TaskResults) -> str:
@@ -158,8 +165,16 @@ def _head(finding: Finding) -> tuple[str, str]:
 def _describe(finding: Finding) -> str:
     """Return the best model, its mean, and by how much it is better than the next."""
     results, _, found = finding
-    beaten = f"; no better than {reference_of(results)}" if _is_beaten(results, found) else ""
-    return _describe_best(results, found) + _describe_lead(results, found) + beaten
+    return _describe_best(results, found) + _describe_lead(results, found) + _name_better(finding)
+
+
+def _name_better(finding: Finding) -> str:
+    """Return the reference and its mean, where the best model is no better."""
+    results, _, found = finding
+    name = reference_of(results)
+    if not name or not _is_beaten(results, found):
+        return ""
+    return f"; no better than {name}, {board_cells(results)[name].text}"
 
 
 def _describe_best(results: TaskResults, found: Sequence[Standing]) -> str:

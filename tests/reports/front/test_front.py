@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from mocapbench.reports import render
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.bundle.model_info import ModelInfo
 from mocapbench.reports.front.answers import answers
 from mocapbench.reports.front.scoreboard import (
     INCOMPLETE,
@@ -254,6 +255,16 @@ def test_tasks_with_published_values_stand_below_and_do_not_decide_who_is_best(s
     assert answer["findings"] == []
 
 
+def test_a_model_that_chose_the_best_one_neither_leads_nor_hides_its_lead(small):
+    several = {"both": ModelInfo("both", family="Several models")}
+    values = {"both": CLEAR["a"], **CLEAR}
+    (answer,) = answers([results_of(small({"row": values}, models=several))])
+    assert answer["model"] == "a"
+    assert answer["findings"][0][2].startswith("a 1.00; 8.05 (7.89 to 8.21) less than b")
+    (answer,) = answers([results_of(small({"row": {**values, "a": CLEAR["b"]}}, models=several))])
+    assert answer["model"] == "both"
+
+
 def test_a_lead_below_the_digits_of_the_scoreboard_is_told_with_more(small):
     results = results_of(small({"row": {"a": [17.304], "b": [17.3046], "c": [20.0]}}))
     (answer,) = answers([results])
@@ -276,7 +287,7 @@ def test_where_as_many_tasks_have_other_leaders_it_depends(small):
 
 def test_a_leader_that_is_no_better_than_the_reference_is_told(small):
     (answer,) = answers([results_of(small({"row": {"a": [3.0], "replay": [2.0]}}))])
-    assert answer["findings"][0][2] == "a 3.00; no better than replay"
+    assert answer["findings"][0][2] == "a 3.00; no better than replay, 2.00"
     assert answers([results_of(small({"row": {"a": [NAN]}}))]) == []
 
 
