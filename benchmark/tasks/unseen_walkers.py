@@ -107,6 +107,8 @@ def _build_case(people: People, n_learnt: int) -> Case:
 _PEOPLE, _GENERATED = read_people(), generated_people()
 _CASES = tuple(_build_case(people, n) for people in (_PEOPLE, _GENERATED) for n in N_LEARNT)
 _MATERN = {"kernel": "matern32"}
+_SLOW = ("gpdm",)
+"""What takes minutes to draw from, for each person."""
 
 unseen_walkers = Task(
     name="unseen-walkers",
@@ -121,9 +123,11 @@ unseen_walkers = Task(
     ),
     profiles={
         "smoke": Profile(
-            ("synthetic 3 walks",), 1, {"max_iter": 2, "n_restarts": 1}, ("gpdm", "hgp")
+            ("synthetic 3 walks",), 1, {"max_iter": 2, "n_restarts": 1}, (*_SLOW, "hgp")
         ),
-        "paper": Profile(on_recordings(_CASES), len(list_walkers(_PEOPLE)), {"max_iter": 100}),
+        "paper": Profile(
+            on_recordings(_CASES), len(list_walkers(_PEOPLE)), {"max_iter": 100}, _SLOW
+        ),
     },
     max_folds=len(list_walkers(_GENERATED)),
 )
