@@ -5,10 +5,10 @@
     python docs/evidence/people.py RUN [--all]
 
 prints a row for each case of the run that the first screen of its report answers, or for all cases
-of many people: the best model and its mean, by how much it is better than the next with the
-interval, over how many people, and whether the lead is decided at 5 % after Holm's correction, over
-rivals and then over rows. Then, of people with odd and with even subject numbers, who is best, and
-by how much the best model of all is better than the next of all. Last, how many leads agree.
+of many people: the best model and its mean, by how much it is better than the next, over how many
+people, by how much it is among people with odd and with even subject numbers, and who is best there
+if another; last whether the lead is decided at 5 % after Holm's correction, over rivals and then
+over rows. Below is how many leads there are in both halves.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ from mocapbench.reports.analysis.cells import cells
 from mocapbench.reports.analysis.contrasts import PairContrast, contrasts
 from mocapbench.reports.analysis.results import TaskResults, task_results
 from mocapbench.reports.analysis.standings import next_best, standings
+from mocapbench.reports.text import number
 
 HALVES = {"odd": 1, "even": 0}
 
@@ -82,9 +83,9 @@ def describe_lead(
     row = {
         "task": f"`{results.layout.name}`",
         "case": case.name,
-        "best": f"`{best}` {lead.first:.2f}",
+        "best": f"`{best}` {number(lead.first, 2)}",
         "next": f"`{second}`",
-        "better by": f"{lead.advantage:.2f} ({lead.low:.2f} to {lead.high:.2f})",
+        "better by": " to ".join(number(end, 2) for end in (lead.low, lead.high)),
         "people": lead.n,
         "p": lead.t_p_holm,
         "agrees": True,
@@ -93,7 +94,7 @@ def describe_lead(
         half = keep_people(results, case, remainder)
         leader = standings(half, results.layout.page.metrics[0], [case])[0].label
         within = compare(half, case, best, second).advantage
-        row[name] = f"`{leader}`, {within:.2f}"
+        row[name] = number(within, 2) + ("" if leader == best else f", `{leader}` best")
         row["agrees"] = bool(row["agrees"]) and within > 0
     return row
 
@@ -106,8 +107,8 @@ def keep_people(results: TaskResults, case: CaseLayout, remainder: int) -> TaskR
 
 def markdown(table: pd.DataFrame) -> str:
     """Return a table in Markdown."""
-    rows = [table.columns, ["---"] * table.shape[1], *table.to_numpy()]
-    return "\n".join(f"| {' | '.join(map(str, row))} |" for row in rows)
+    heads = [f"| {' | '.join(table.columns)} |", "|---" * table.shape[1] + "|"]
+    return "\n".join([*heads, *(f"| {' | '.join(map(str, row))} |" for row in table.to_numpy())])
 
 
 if __name__ == "__main__":
