@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from mocapbench.basics.words import format_count, join_names
@@ -56,12 +57,12 @@ def answers(tasks: Sequence[TaskResults]) -> list[dict[str, Any]]:
     Returns
     -------
     list of dict
-        ``question``, the title of it; ``model``, which alone is best in more than half of its
-        findings, and there better than the reference, empty where none is; ``doubt``, what the
-        tests say of its leads, empty where more than half show a lead that is more than chance;
-        ``findings``, the anchor, the title and a sentence of each, those that the model leads
-        first; ``reproductions``, the same of tasks with published values, which say of the model
-        only where there are no findings; ``sure``, what the tests say of all leads.
+        ``question``, the title of it; ``model``, which alone is best in more than half of what
+        many people are asked, or of all tasks where they are asked nothing, and there better than
+        the reference, empty where none is; ``doubt``, what the tests say of its leads, empty where
+        more than half show a lead that is more than chance; ``findings``, the anchor, the title and
+        a sentence of each, those that the model leads first; ``reproductions``, the same of tasks
+        with published values; ``sure``, what the tests say of all leads.
     """
     found = [finding for task in tasks for finding in _find(task)]
     return [
@@ -80,15 +81,16 @@ def _find(results: TaskResults) -> list[Finding]:
         if case.name in asks
     ]
     whole = [(results.layout.page.short + _mark_generated(results), None)]
-    found = [(text, standings(results, metric, cases)) for text, cases in asked or whole]
-    return [(results, text, _drop_choosers(results, ranked)) for text, ranked in found if ranked]
+    rivals = _leave_out_choosers(results)
+    found = [(results, text, standings(rivals, metric, cases)) for text, cases in asked or whole]
+    return [finding for finding in found if finding[2]]
 
 
-def _drop_choosers(results: TaskResults, found: Sequence[Standing]) -> Sequence[Standing]:
-    """Return the standings without models that chose the best one, and nothing else."""
-    level = [found[0], *level_with_best(found)]
-    chosen = [one for one in level if not results.layout.model(one.label).is_several]
-    return [one for one in found if one in chosen or one not in level] if chosen else found
+def _leave_out_choosers(results: TaskResults) -> TaskResults:
+    """Return the results without models that choose or average others: these are no rivals."""
+    layout = results.layout
+    single = tuple(label for label in layout.labels if not layout.model(label).is_several)
+    return replace(results, layout=replace(layout, labels=single or layout.labels))
 
 
 def _mark_generated(results: TaskResults) -> str:
@@ -101,7 +103,7 @@ def _question(finding: Finding) -> str:
 
 def _answer(question: str, group: Sequence[Finding]) -> dict[str, Any]:
     papers = [finding for finding in group if finding[0].published]
-    deciding = [finding for finding in group if not finding[0].published] or papers
+    deciding = [finding for finding in group if finding[0].layout.page.asks] or group
     leaders = Counter(filter(None, map(_find_leader, deciding)))
     model, most = leaders.most_common(1)[0] if leaders else ("", 0)
     named = model if 2 * most > len(deciding) else ""
