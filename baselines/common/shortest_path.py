@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 __all__ = ["cheapest_path"]
 
+_ROWS = 64
+
 
 def cheapest_path(
     emission: NDArray[np.float64], transition: NDArray[np.float64]
@@ -27,11 +29,14 @@ def cheapest_path(
     """
     states = np.arange(emission.shape[1])
     cost, before = emission[0], []
+    # What leads to a state stands in a row, and few rows at once stay in the cache: numpy finds the
+    # least of neighbours several times as fast as that of a column.
+    leading = np.ascontiguousarray(transition.T)
+    blocks = [leading[first : first + _ROWS] for first in range(0, len(states), _ROWS)]
     # The least cost of reaching each state, and the state before it on that path.
     for here in emission[1:]:
-        total = cost[:, None] + transition
-        best = total.argmin(axis=0)
-        cost = total[best, states] + here
+        best = np.concatenate([(block + cost).argmin(axis=1) for block in blocks])
+        cost = cost[best] + transition[best, states] + here
         before.append(best)
     # Back from the cheapest last state.
     path = [int(cost.argmin())]
