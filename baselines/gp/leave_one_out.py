@@ -24,7 +24,7 @@ _RESOLVED = 1e-11
 """In standard units, the β (β − v) above which an entry counts: below, rounding of v may decide.
 
 On walks of 39 channels the latent split knows v to 2e-13 / β or better
-(``docs/mathematics/inference.md``).
+(``docs/mathematics/prediction.md``).
 """
 
 

@@ -11,7 +11,7 @@ under the same variances,
     ν = 1/(Σ s² + (Σ a)² − Σ a²).
 
 Where all shares are equal, e² is the squared error of a plain mean and ν = n − 1. Units are thus
-*worth* ν + 1 units of equal shares, and docs/mathematics/statistics.md has how well the level of
+*worth* ν + 1 units of equal shares, and docs/mathematics/error-rates.md has how well the level of
 the test is kept.
 
 References
