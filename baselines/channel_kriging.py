@@ -14,7 +14,11 @@ import numpy as np
 from mocapbench.baselines.common.checks import check_given, check_recordings, pool
 from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.kriging.channel_process import learn_channel_process, predict_channels
+from mocapbench.baselines.kriging.channel_process import (
+    choose_near,
+    learn_channel_process,
+    predict_channels,
+)
 from mocapbench.baselines.kriging.held_out_stretches import DescribedFrames
 from mocapbench.baselines.kriging.stacked import (
     describe_by_channels,
@@ -45,8 +49,9 @@ class ChannelKriging(Imputer, Inductive):
     the larger its coefficients in a ridge regression of the hidden ones on all visible ones.
 
     The six parameters are those that best predict gaps that are held out of what is visible, as
-    long as those to fill. These gaps say, too, how far variances are right. Frames of all
-    recordings, those of the recording to fill included, are what the process is conditioned on.
+    long as those to fill. These gaps say, too, how far variances are right. The process is
+    conditioned on the frames of all recordings, those of the recording to fill included; of more
+    than 3000, on those of others that are most like the frames to fill.
     Channels hidden in the same frames are filled together, with parameters of their own; where
     others are hidden besides, these are interpolated over time for the comparison.
 
@@ -149,4 +154,5 @@ def _moments(
     shown = values[np.ix_(known, channels)]
     spread = np.nanmean(values[:, channels] ** 2, axis=0)
     process = learn_channel_process(given, shown, spread, own, duration)
-    return predict_channels(given, shown, sought, *process)
+    near = choose_near(given, sought, own)
+    return predict_channels(given.at(near), shown[near], sought, *process)

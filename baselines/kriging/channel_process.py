@@ -33,11 +33,12 @@ from mocapbench.baselines.kriging.held_out_stretches import (
     predict_frames,
     stretch_numbers,
 )
-from mocapbench.basics.arrays import Array
+from mocapbench.basics.arrays import Array, Index
 
 __all__ = [
     "TYPICAL",
     "ChannelPairs",
+    "choose_near",
     "learn_channel_process",
     "predict_channels",
     "prior_variances",
@@ -48,6 +49,12 @@ TYPICAL: Array = np.log([1.0, 0.25, 0.3, 0.3, 8.0, 0.2])
 """Medians of the priors: of ℓ, √β, √α, √γ, τ in frames, and √ε."""
 _LEARNT = 150
 """Frames of the recording to fill, and of all others, from which parameters are learnt."""
+_CONDITIONED = 3000
+"""Frames to predict from, or those of the recording to fill if these are more.
+
+A core factors their covariance in about half a second. A hundred recordings have five times as
+many, would take a hundred times as long, and err as much.
+"""
 _SUPPOSED = 2.0
 """Gaps that count as erring as the prior has it, beside those that are held out."""
 _LEAST = 1e-12
@@ -160,6 +167,29 @@ def learn_channel_process(
     ratios = squares * HeldOutStretches(add_noise(pairs, found), values, stretch).scales
     supposed = _SUPPOSED * spread / prior_variances(frames, found).mean()
     return found, np.maximum(ratios + supposed / n_gaps, _LEAST)
+
+
+def choose_near(frames: DescribedFrames, wanted: DescribedFrames, own: int) -> Index:
+    """Return the frames of a recording, and of others those most like any that is wanted.
+
+    Parameters
+    ----------
+    frames, wanted : DescribedFrames
+    own : int
+        The number of the recording.
+
+    Returns
+    -------
+    ndarray of int
+        Places in ``frames``, in ascending order: at most `_CONDITIONED`, or all of the recording.
+    """
+    if len(frames.times) <= _CONDITIONED:
+        return np.arange(len(frames.times))
+    apart = euclidean_distances(wanted.description, frames.description, squared=True).min(axis=0)
+    mine = frames.recording == own
+    apart[mine] = -1.0
+    most = max(_CONDITIONED, int(mine.sum()))
+    return np.sort(np.argsort(apart, kind="stable")[:most])
 
 
 def predict_channels(

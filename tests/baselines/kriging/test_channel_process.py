@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from mocapbench.baselines.kriging import channel_process
 from mocapbench.baselines.kriging.channel_process import (
     TYPICAL,
     ChannelPairs,
@@ -69,3 +70,34 @@ def test_one_frame_tells_little_of_the_scale():
     typical = 1.0 / prior_variances(given, parameters)
     assert (scales > typical).all()
     assert (scales < 4.0 * typical).all()
+
+
+@pytest.fixture
+def described():
+    rng = np.random.default_rng(0)
+    return [
+        DescribedFrames(rng.normal(size=(n, 3)), np.arange(n), np.arange(n) % 4) for n in (40, 5)
+    ]
+
+
+@pytest.mark.parametrize(("most", "n_kept"), [(100, 40), (40, 40), (25, 25), (3, 10)])
+def test_all_frames_of_the_recording_are_kept_and_those_of_others_that_are_alike(
+    described, monkeypatch, most, n_kept
+):
+    monkeypatch.setattr(channel_process, "_CONDITIONED", most)
+    frames, wanted = described
+    kept = channel_process.choose_near(frames, wanted, 2)
+    assert len(kept) == len(set(kept)) == n_kept
+    assert set(np.flatnonzero(frames.recording == 2)) <= {*kept}
+    apart = np.linalg.norm(wanted.description[:, None] - frames.description, axis=2).min(axis=0)
+    others = [place for place in kept if frames.recording[place] != 2]
+    left = np.setdiff1d(np.arange(40), kept)
+    assert max(apart[others], default=0.0) <= min(apart[left], default=np.inf)
+
+
+def test_the_order_of_frames_does_not_change_which_are_kept(described, monkeypatch):
+    monkeypatch.setattr(channel_process, "_CONDITIONED", 20)
+    frames, wanted = described
+    order = np.random.default_rng(1).permutation(40)
+    kept = channel_process.choose_near(frames.at(order), wanted, 1)
+    assert {*order[kept]} == {*channel_process.choose_near(frames, wanted, 1)}
