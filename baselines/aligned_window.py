@@ -16,7 +16,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
-from mocapbench.baselines.common.recordings import hidden_frames, stretches
+from mocapbench.baselines.common.recordings import by_content, hidden_frames, stretches
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array, Index
@@ -106,7 +106,7 @@ class AlignedWindow(FrameImputer, Inductive):
             differ, or a name repeats.
         """
         check_count("n_windows", self.n_windows, 1)
-        checked = check_recordings(recordings)
+        checked = by_content(check_recordings(recordings))
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.runs_ = [
             stretch for recording in map(in_pose_units, checked) for stretch in stretches(recording)

@@ -15,7 +15,7 @@ from mocapbench.baselines.choosing.held_out_errors import HeldOutErrors, Product
 from mocapbench.baselines.choosing.parts import parts_of
 from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
 from mocapbench.baselines.common.checks import check_channels, check_recordings, check_spread
-from mocapbench.baselines.common.recordings import by_name
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.validation import check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
@@ -117,7 +117,7 @@ class BestOf(Imputer, Inductive):
         check_share("shrinkage", self.shrinkage)
         checked = check_recordings(recordings)
         check_spread(checked)
-        self.recordings_ = by_name(checked)
+        self.recordings_ = by_content(checked)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.candidates_ = FittedCandidates.of(self.recordings_)
         self.left_out_ = self.candidates_.left_out

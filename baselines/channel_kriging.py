@@ -12,7 +12,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from mocapbench.baselines.common.checks import check_given, check_recordings, pool
-from mocapbench.baselines.common.recordings import by_name
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.kriging.channel_process import (
     choose_near,
@@ -101,7 +101,7 @@ class ChannelKriging(Imputer, Inductive):
         ValueError
             If there is no recording, channels differ, or a name repeats.
         """
-        self.recordings_ = by_name(check_recordings(recordings))
+        self.recordings_ = by_content(check_recordings(recordings))
         self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
         return self
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.cycle_settings import check_settings
-from mocapbench.baselines.common.recordings import by_name, places_by_name
+from mocapbench.baselines.common.recordings import by_content, places_by_content
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.functional.components import (
     cycle_moments,
@@ -168,7 +168,7 @@ class FAM(Imputer, Inductive, Aligner):
         checked = check_recordings(recordings)
         self.recordings_ = checked
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        ordered, places = by_name(checked), places_by_name(checked)
+        ordered, places = by_content(checked), places_by_content(checked)
         self.scaling_ = Standardisation.of(ordered)
         scaled = [self.scaling_.apply(recording) for recording in ordered]
         periods = cycle_periods(scaled)

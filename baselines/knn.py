@@ -13,8 +13,9 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.checks import check_channels, check_recordings, check_visible, pool
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import (
+    by_content,
     hidden_frames,
-    places_by_name,
+    places_by_content,
     stack,
     visible_moments,
     with_steps,
@@ -42,7 +43,7 @@ class KNN(Imputer, Inductive):
     (``mocapbench.baselines.common.transitions``). Any other recording is filled by scikit-learn's
     ``KNNImputer`` on the stacked frames of all recordings. Time is one more column, scaled to the
     median standard deviation of the channels. Where frames are equally near, in time alone, their
-    order and the names of their recordings decide. Where channels have several units, degrees and
+    order and what their recordings contain decide. Where channels have several units, degrees and
     radians count as degrees, and mm, cm and m as the CMU database's unit of length, 5.64 cm.
 
     Both use the recordings given to `fit` and the visible entries of the recording to fill. There
@@ -113,7 +114,7 @@ class KNN(Imputer, Inductive):
             differ, or a name repeats.
         """
         check_count("n_neighbors", self.n_neighbors, 1)
-        self.recordings_ = check_recordings(recordings)
+        self.recordings_ = by_content(check_recordings(recordings))
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -162,7 +163,7 @@ def _later(recordings: Sequence[Recording], spread: float) -> Array:
     Otherwise rounding, which differs among processors, would choose between those before and after
     a frame, and among recordings.
     """
-    ranks = 1 + places_by_name(recordings)
+    ranks = 1 + places_by_content(recordings)
     return np.repeat(TIE * spread * ranks, [len(recording.times) for recording in recordings])
 
 

@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.padded_sequences import Sequences
-from mocapbench.baselines.common.recordings import by_name
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_sampling
 from mocapbench.baselines.protocols import (
@@ -131,7 +131,7 @@ class LDS(Imputer, Inductive, Synthesiser):
         check_count("n_states", self.n_states, 1)
         check_count("max_iter", self.max_iter, 1)
         check_positive("tol", self.tol)
-        self.recordings_ = by_name(check_recordings(recordings))
+        self.recordings_ = by_content(check_recordings(recordings))
         self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
         self.scaling_ = Standardisation.of(self.recordings_)
         data = self._observations(self.recordings_)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.padded_sequences import Sequences
-from mocapbench.baselines.common.recordings import by_name, places_by_name
+from mocapbench.baselines.common.recordings import by_content, places_by_content
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
 from mocapbench.baselines.protocols import Clusterer
@@ -56,7 +56,7 @@ class LGSSM(Clusterer):
     labels_ : ndarray of int, shape (K,)
         The cluster of each recording.
     mixture_ : Mixture
-        The components, for standardised channels; its recordings are sorted by name.
+        The components, for standardised channels; its recordings are in the order `by_content`.
     objective_ : ndarray of shape (n_iterations + 1,)
         The objective of classification EM at the start and after each iteration.
     restart_objectives_ : ndarray of shape (n_restarts,)
@@ -130,7 +130,7 @@ class LGSSM(Clusterer):
         """
         self._check_parameters()
         checked = check_recordings(recordings)
-        ordered = by_name(checked)
+        ordered = by_content(checked)
         self.scaling_ = Standardisation.of(ordered)
         data = Sequences.of([self.scaling_.apply(recording).values for recording in ordered])
         states, rng = initial_states(data, self.n_states), np.random.default_rng(self.random_state)
@@ -140,7 +140,7 @@ class LGSSM(Clusterer):
         self.mixture_, self.converged_ = best.state, best.converged
         self.objective_ = np.array(best.objectives)
         self.n_iterations_ = best.n_iterations
-        self.labels_: NDArray[np.intp] = best.state.labels[places_by_name(checked)]
+        self.labels_: NDArray[np.intp] = best.state.labels[places_by_content(checked)]
         return self
 
     def _check_parameters(self) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.common.ascent import ascend
 from mocapbench.baselines.common.checks import check_given, check_recordings, check_spread
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.scaling import OwnMeans
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
@@ -126,7 +127,7 @@ class LowRank(Imputer, Inductive):
         check_share("explained_variance", self.explained_variance)
         check_count("max_iter", self.max_iter, 1)
         check_positive("tol", self.tol)
-        checked = check_recordings(recordings)
+        checked = by_content(check_recordings(recordings))
         check_spread(checked)
         self.recordings_ = checked
         self.channels_, self.units_ = checked[0].channels, checked[0].units

@@ -10,7 +10,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings, pool
 from mocapbench.baselines.common.markers import marker_places
-from mocapbench.baselines.common.recordings import by_name
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.rigid import FEWEST, steadiness
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_positive
@@ -111,7 +111,7 @@ class MarkerKriging(Imputer, Inductive):
             repeats.
         """
         check_positive("power", self.power)
-        self.recordings_ = by_name(check_recordings(recordings))
+        self.recordings_ = by_content(check_recordings(recordings))
         self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
         self.markers_ = marker_places(self.channels_, self.units_)
         return self

@@ -137,7 +137,8 @@ class MOHGP(GaussianProcess, Trended):
         registered = REGISTRATIONS[self.registration](given)
         super().fit([moved for moved, _ in registered])
         # What `impute` takes. Only complete recordings have moved, of which nothing is to fill.
-        self.recordings_ = {recording.name: recording for recording in given}
+        named = {recording.name: recording for recording in given}
+        self.recordings_ = {name: named[name] for name in self.recordings_}
         self.clocks_ = {moved.name: clock for moved, clock in registered}
         return self
 

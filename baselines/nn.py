@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.pose_units import pose_factors
-from mocapbench.baselines.common.recordings import interpolate_channels, stack
+from mocapbench.baselines.common.recordings import by_content, interpolate_channels, stack
 from mocapbench.baselines.common.validation import check_not_negative
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array
@@ -97,7 +97,7 @@ class NN(Imputer, Inductive):
             If there is no recording, channels differ, a name repeats, or ``weights`` has not one
             number of at least 0 for each channel.
         """
-        checked = check_recordings(recordings)
+        checked = by_content(check_recordings(recordings))
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.frames_ = stack(checked)
         self.weights_ = _weights(self.weights, self.channels_) * pose_factors(self.units_)

@@ -18,6 +18,7 @@ from scipy.linalg import cho_factor, cho_solve
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_outputs, check_recordings
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.validation import check_sampling, check_times
 from mocapbench.baselines.protocols import (
     Imputer,
@@ -106,7 +107,7 @@ class Oracle(Imputer, Synthesiser, Trended):
         if process is None:
             raise ValueError("expected a process that generated the recordings, got None")
         self.process_ = process
-        checked = check_recordings(recordings)
+        checked = by_content(check_recordings(recordings))
         check_outputs(checked, self.process_)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.times_ = np.unique(np.concatenate([recording.times for recording in checked]))

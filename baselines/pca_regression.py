@@ -9,6 +9,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings, pool
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.scaling import OwnMeans
 from mocapbench.baselines.common.validation import check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
@@ -102,7 +103,7 @@ class PCARegression(Imputer, Inductive):
         """
         check_positive("hidden_weight", self.hidden_weight)
         check_share("share", self.share)
-        self.recordings_ = check_recordings(recordings)
+        self.recordings_ = by_content(check_recordings(recordings))
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

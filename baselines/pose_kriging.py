@@ -21,7 +21,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
-from mocapbench.baselines.common.recordings import visible_frames, with_steps
+from mocapbench.baselines.common.recordings import by_content, visible_frames, with_steps
 from mocapbench.baselines.common.validation import (
     check_not_negative,
     check_positive,
@@ -182,7 +182,7 @@ class PoseKriging(FrameImputer, Inductive):
         check_not_negative("pose_variance", self.pose_variance)
         check_share("symmetry", self.symmetry)
         check_share("least_explained", self.least_explained)
-        checked = check_recordings(recordings)
+        checked = by_content(check_recordings(recordings))
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.directions_ = mean_directions(checked)
         usable = [in_pose_units(self._wrap_angles(one)) for one in with_steps(checked)]

@@ -19,7 +19,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.pose_units import in_pose_units, pose_factors
-from mocapbench.baselines.common.recordings import complete_stretches, visible_frames
+from mocapbench.baselines.common.recordings import by_content, complete_stretches, visible_frames
 from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
@@ -107,7 +107,7 @@ class PoseViterbi(FrameImputer, Inductive):
         check_positive("smoothness", self.smoothness)
         check_share("subject_offset", self.subject_offset)
         check_count("steps", self.steps, 1)
-        checked = check_recordings(recordings)
+        checked = by_content(check_recordings(recordings))
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         moved = [in_pose_units(recording) for recording in checked]
         stretches = [_refine_stretch(each, self.steps) for each in complete_stretches(moved)]

@@ -9,7 +9,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_recordings
-from mocapbench.baselines.common.recordings import interpolate_channels
+from mocapbench.baselines.common.recordings import by_content, interpolate_channels
 from mocapbench.baselines.common.validation import check_sampling
 from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
 from mocapbench.datasets import Frames, Recording
@@ -65,7 +65,7 @@ class Replay(Synthesiser):
             If there is no recording, channels differ, a name repeats, or a recording has a channel
             without a visible entry.
         """
-        self.recordings_ = check_recordings(recordings)
+        self.recordings_ = by_content(check_recordings(recordings))
         for recording in self.recordings_:
             _check_visible(recording)
         return self

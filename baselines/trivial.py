@@ -9,7 +9,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_recordings, check_visible, pool
-from mocapbench.baselines.common.recordings import visible_moments
+from mocapbench.baselines.common.recordings import by_content, visible_moments
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import Recording
 
@@ -66,7 +66,7 @@ class Trivial(Imputer, Inductive):
         ValueError
             If there is no recording, channels differ, or a name repeats.
         """
-        self.recordings_ = check_recordings(recordings)
+        self.recordings_ = by_content(check_recordings(recordings))
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -17,7 +17,7 @@ from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.cycle_settings import check_settings
 from mocapbench.baselines.common.padded_sequences import Sequences
-from mocapbench.baselines.common.recordings import by_name, places_by_name
+from mocapbench.baselines.common.recordings import by_content, places_by_content
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_choice
 from mocapbench.baselines.protocols import Aligner, StatePath
@@ -33,7 +33,7 @@ class CycleAligner(Aligner):
     """An estimator of one common cycle; a subclass provides the learning and its attributes.
 
     The model works on channels of zero mean and unit variance, and learns from recordings in the
-    order of their names.
+    an order that follows from their values.
     """
 
     family: ClassVar[str] = "Alignment"
@@ -54,7 +54,7 @@ class CycleAligner(Aligner):
         self._check_parameters()
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        ordered, places = by_name(checked), places_by_name(checked)
+        ordered, places = by_content(checked), places_by_content(checked)
         self.scaling_ = Standardisation.of(ordered)
         self.names_ = tuple(recording.name for recording in ordered)
         self.sequences_ = self._sequences(ordered)

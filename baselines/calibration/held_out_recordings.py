@@ -14,7 +14,7 @@ from sklearn.base import clone
 
 from mocapbench.baselines.calibration.error_ratios import sum_ratios
 from mocapbench.baselines.calibration.held_out_gaps import remoteness
-from mocapbench.baselines.common.recordings import by_name
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.protocols import FrameImputer
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Mask, Recording
@@ -32,8 +32,8 @@ def hold_out_recordings(
 ) -> list[tuple[list[Recording], list[Recording]]]:
     """Return who is held out together and who is left, each time; nothing if nobody would be left.
 
-    Those held out are spread evenly over the recordings by name. Where many are left to learn from,
-    they are held out at once.
+    Those held out are spread evenly over the recordings `by_content`. Where many are left to learn
+    from, they are held out at once.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def hold_out_recordings(
     given : Recording
         The one to fill.
     """
-    others = by_name([one for one in recordings if one.name != given.name])
+    others = by_content([one for one in recordings if one.name != given.name])
     if len(recordings) < 2:
         return []
     positions = np.unique(np.linspace(0, len(others) - 1, _MOST).round().astype(int))

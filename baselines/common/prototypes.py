@@ -44,11 +44,17 @@ def cluster_cycles(
 def group_rows(
     features: Array, n_groups: int, n_restarts: int, rng: np.random.Generator
 ) -> NDArray[np.intp]:
-    """Return the group (K,) of each row of features (K, F), by the best start of K-means."""
+    """Return the group (K,) of each row of features (K, F), by the best start of K-means.
+
+    Starts are drawn among the rows in an order of their own, whatever order they come in.
+    """
+    order = sorted(range(len(features)), key=lambda row: tuple(features[row]))
     k_means = KMeans(
         min(n_groups, len(features)), n_init=n_restarts, random_state=int(rng.integers(2**31))
     )
-    return np.asarray(k_means.fit_predict(features), dtype=np.intp)
+    groups = np.empty(len(features), dtype=np.intp)
+    groups[order] = k_means.fit_predict(features[order])
+    return groups
 
 
 def of_unit_variance(features: Array) -> Array:

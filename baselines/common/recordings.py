@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cmp_to_key
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +13,11 @@ from mocapbench.basics.mask_runs import runs
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
 __all__ = [
-    "by_name",
+    "by_content",
     "complete_stretches",
     "hidden_frames",
     "interpolate_channels",
-    "places_by_name",
+    "places_by_content",
     "stack",
     "stretches",
     "visible_frames",
@@ -25,22 +26,41 @@ __all__ = [
 ]
 
 
-def by_name(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
-    """Return recordings in the order of their names.
+def by_content(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
+    """Return recordings in an order that follows from their values and times alone.
 
-    Models learn from them in this order, so that the order in which they are given does not affect
-    results: neither rounding nor what is drawn at random depends on it.
+    Models learn from them in this order, so that neither their names nor the order in which they
+    are given affect results: rounding does not depend on them, nor does what is drawn at random.
     """
-    return tuple(sorted(recordings, key=lambda recording: recording.name))
+    return tuple(sorted(recordings, key=cmp_to_key(_compare)))
 
 
-def places_by_name(recordings: Sequence[Recording]) -> NDArray[np.intp]:
-    """Return the place (K,) of each of K recordings in `by_name`, their names being distinct.
+def places_by_content(recordings: Sequence[Recording]) -> NDArray[np.intp]:
+    """Return the place (K,) of each of K recordings in `by_content`, their names being distinct.
 
-    Indexed with it, an array of results in the order of names is in the order of ``recordings``.
+    Indexed with it, an array of results in that order is in the order of ``recordings``.
     """
-    places = {recording.name: place for place, recording in enumerate(by_name(recordings))}
+    places = {recording.name: place for place, recording in enumerate(by_content(recordings))}
     return np.array([places[recording.name] for recording in recordings], dtype=np.intp)
+
+
+def _compare(one: Recording, other: Recording) -> int:
+    """Return the sign of the first difference between recordings: of their lengths, or of a value.
+
+    The first value that differs is less in the same one whatever the unit is.
+    """
+    if len(one.times) != len(other.times):
+        return len(one.times) - len(other.times)
+    for these, those in zip(_contents(one), _contents(other), strict=True):
+        for place in np.flatnonzero(these != those)[:1]:
+            return 1 if these.flat[place] > those.flat[place] else -1
+    return 0
+
+
+def _contents(recording: Recording) -> tuple[Array, Array]:
+    """Return the values, what is hidden below all others, and the times since the first frame."""
+    values = np.where(recording.visible, recording.values, -np.inf)
+    return values, recording.times - recording.times[0]
 
 
 def stack(recordings: Sequence[Recording]) -> FrameByChannel:

@@ -18,6 +18,7 @@ from joblib import effective_n_jobs
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_given, check_recordings
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import (
     check_choice,
@@ -184,7 +185,7 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         SingularCovarianceError
             If the covariance is singular at a start.
         """
-        checked = check_recordings(recordings)
+        checked = by_content(check_recordings(recordings))
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.tree_ = self.grow([recording.name for recording in checked])
         self._check_parameters()

@@ -75,7 +75,10 @@ def keep_times(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
 
 
 def register_affinely(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
-    """Return the recordings with those that are complete moved onto the reference's clock."""
+    """Return the recordings with those that are complete moved onto the reference's clock.
+
+    The reference is the one with the most hidden entries, of several the first given.
+    """
     reference = max(recordings, key=lambda recording: int((~recording.visible).sum()))
     _, variance = visible_moments(recordings)
     scale = np.sqrt(np.where(variance > 0.0, variance, 1.0))

@@ -15,7 +15,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.pose_units import in_pose_units, pose_factors
-from mocapbench.baselines.common.recordings import visible_frames
+from mocapbench.baselines.common.recordings import by_content, visible_frames
 from mocapbench.baselines.common.validation import (
     check_choice,
     check_count,
@@ -103,7 +103,7 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
 
     def _check_recordings(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
         """Return the recordings to learn from, after checking them."""
-        return check_recordings(recordings)
+        return by_content(check_recordings(recordings))
 
     def _check_parameters(self) -> None:
         for name in ("n_latent", "max_iter", "n_steps", "fill_iter"):

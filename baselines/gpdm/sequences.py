@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.checks import check_recordings
-from mocapbench.baselines.common.recordings import by_name, complete_stretches
+from mocapbench.baselines.common.recordings import by_content, complete_stretches
 from mocapbench.baselines.common.signs import orient_vectors
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
@@ -45,7 +45,7 @@ class TrainingSequences:
 
     @classmethod
     def of(cls, recordings: Sequence[Recording]) -> TrainingSequences:
-        """Return the complete stretches of the recordings, sorted by recording name.
+        """Return the complete stretches of the recordings, in the order `by_content`.
 
         Raises
         ------
@@ -53,7 +53,7 @@ class TrainingSequences:
             If there is no recording, channels differ, a name repeats, no two consecutive frames
             are complete, or no channel moves.
         """
-        checked = by_name(check_recordings(recordings))
+        checked = by_content(check_recordings(recordings))
         stretches = complete_stretches(checked)
         values = np.concatenate(stretches)
         size = np.maximum(np.abs(values).max(axis=0), 1.0)

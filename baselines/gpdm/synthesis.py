@@ -43,7 +43,7 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
 
     def _check_recordings(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
         checked = super()._check_recordings(recordings)
-        check_rates(checked)
+        check_rates(recordings)
         return checked
 
     def sample(

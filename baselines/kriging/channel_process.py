@@ -48,7 +48,7 @@ __all__ = [
 TYPICAL: Array = np.log([1.0, 0.25, 0.3, 0.3, 8.0, 0.2])
 """Medians of the priors: of ℓ, √β, √α, √γ, τ in frames, and √ε."""
 _LEARNT = 150
-"""Frames of the recording to fill, and of all others, from which parameters are learnt."""
+"""Frames of the recording to fill, and of all others, from which parameters are learnt: about."""
 _CONDITIONED = 3000
 """Frames to predict from, or those of the recording to fill if these are more.
 
@@ -156,7 +156,7 @@ def learn_channel_process(
     scales : ndarray of shape (C,)
         What the variances of each channel are multiplied by.
     """
-    some = choose_from_both(frames.recording == own, _LEARNT)
+    some = choose_from_both(frames.recording, own, _LEARNT)
     frames, values = frames.at(some), values[some]
     squares = np.maximum((values**2).mean(axis=0), _LEAST)
     values = values / np.sqrt(squares)

@@ -304,21 +304,42 @@ def stretch_numbers(
     return np.asarray(stretch.ravel())
 
 
-def choose_evenly(rows: Index, most: int) -> Index:
-    """Return at most so many of the rows, spread evenly."""
-    places = np.linspace(0, len(rows) - 1, min(most, len(rows)))
-    return np.asarray(rows[places.round().astype(int)])
+def choose_evenly(recording: Index, most: int) -> Index:
+    """Return the places of about so many of n frames, spread evenly over each recording.
 
-
-def choose_from_both(own: NDArray[np.bool_], most: int) -> Index:
-    """Return at most so many frames of a recording, and as many of all others, spread evenly.
+    Each recording gives its share of them, rounded up, so that the order of recordings means
+    nothing, and none is left out.
 
     Parameters
     ----------
-    own : ndarray of bool, shape (n,)
-        Which frames are of the recording.
+    recording : ndarray of int, shape (n,)
+        The number of each frame's recording.
     most : int
     """
-    return np.concatenate(
-        [choose_evenly(np.flatnonzero(own == mine), most) for mine in (True, False)]
-    )
+    n_frames = len(recording)
+    parts = [np.flatnonzero(recording == number) for number in np.unique(recording)]
+    shares = [-(-min(most, n_frames) * len(part) // n_frames) for part in parts]
+    chosen = [_spread(part, number) for part, number in zip(parts, shares, strict=True)]
+    return np.concatenate([np.zeros(0, dtype=np.intp), *chosen])
+
+
+def _spread(places: Index, number: int) -> Index:
+    """Return so many of the places: both ends and others between them, or the middle one."""
+    if number == 1:
+        return np.asarray(places[[len(places) // 2]])
+    return np.asarray(places[np.linspace(0, len(places) - 1, number).round().astype(int)])
+
+
+def choose_from_both(recording: Index, own: int, most: int) -> Index:
+    """Return about so many frames of a recording, and as many of all others, spread evenly.
+
+    Parameters
+    ----------
+    recording : ndarray of int, shape (n,)
+        The number of each frame's recording.
+    own : int
+        The number of the recording.
+    most : int
+    """
+    sides = [np.flatnonzero((recording == own) == mine) for mine in (True, False)]
+    return np.concatenate([side[choose_evenly(recording[side], most)] for side in sides])

@@ -94,7 +94,7 @@ class MarkerGap:
     def _predict_gap(self, frames: DescribedFrames, values: Array) -> tuple[Array, Array]:
         """Return the moments in the gap, with which ``frames`` begin, given ``values`` after it."""
         wanted, known = np.split(np.arange(len(self._rows)), [len(self.frames)])
-        some = choose_from_both(self._given[:, 0] == 0, _LEARNT)
+        some = choose_from_both(self._given[:, 0], 0, _LEARNT)
         process = learn_marker_process(frames.at(known[some]), values[some], self._seconds)
         return predict_marker(frames.at(known), values, frames.at(wanted), *process)
 
@@ -126,8 +126,8 @@ class MarkerGap:
         # All frames near the gap, and as many others of this recording as of all the rest.
         own, further = shown[0], np.concatenate([shown[0][:0], *shown[1:]])
         beside = np.abs(own[:, 1] - np.clip(own[:, 1], self.frames[0], self.frames[-1])) <= _BESIDE
-        own = np.unique(np.concatenate([choose_evenly(own, _FURTHER), own[beside]]), axis=0)
-        return np.concatenate([own, choose_evenly(further, _FURTHER)])
+        own = own[beside | np.isin(np.arange(len(own)), choose_evenly(own[:, 0], _FURTHER))]
+        return np.concatenate([own, further[choose_evenly(further[:, 0], _FURTHER)]])
 
     def _find_complete_frames(self, number: int) -> Index:
         places = self.places[number][:, [self.marker, *self.others]]

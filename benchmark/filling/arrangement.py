@@ -8,15 +8,14 @@ contain, and no names of files.
 from __future__ import annotations
 
 from dataclasses import replace
-from hashlib import sha256
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.basics.arrays import Index
 from mocapbench.benchmark.filling.gap_problem import GapProblem
-from mocapbench.datasets import Recording
 
 __all__ = ["arrange", "arrange_entries", "restore_entries"]
 
@@ -26,7 +25,7 @@ def arrange(problem: GapProblem) -> tuple[GapProblem, Index]:
     channels = problem.given.channels
     order = np.array(sorted(range(len(channels)), key=channels.__getitem__))
     names = [channels[channel] for channel in order]
-    train = sorted((recording.select(names) for recording in problem.train), key=_digest)
+    train = by_content([recording.select(names) for recording in problem.train])
     arranged = GapProblem(
         replace(problem.given.select(names), name="the recording"),
         problem.target[:, order],
@@ -51,8 +50,3 @@ def _rank_entries(arranged: GapProblem, order: Index) -> Index:
     """Return the place (M,) that each wanted entry of an arranged problem had before."""
     frames, channels = np.nonzero(arranged.target)
     return np.argsort(np.argsort(frames * len(order) + order[channels]))
-
-
-def _digest(recording: Recording) -> bytes:
-    parts = (recording.values, recording.times - recording.times[0])
-    return sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in parts)).digest()

@@ -156,6 +156,7 @@ _OF_ABILITY: Mapping[str, tuple[ModelCheck, ...]] = {
         imputers.repeats_itself,
         imputers.keeps_means_in_calibration,
         imputers.ignores_the_order_of_recordings,
+        imputers.ignores_the_names_of_recordings,
     ),
     "fills entries": (imputers.fills_any_mask,),
     "interpolates": (imputers.fills_channels_apart,),

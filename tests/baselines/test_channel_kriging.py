@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -118,3 +120,16 @@ def test_channels_that_are_hidden_together_must_be_visible_together_somewhere():
         ChannelKriging().fit(training).impute([given])
     (filled,) = ChannelKriging().fit([*training, walk("two", 7)]).impute([given])
     assert np.isfinite(filled.mean).all()
+
+
+def test_neither_names_nor_order_of_training_change_a_fill():
+    """Parameters are learnt from some of the frames alone where training is long."""
+    rng = np.random.default_rng(0)
+    training = [walk("", 5 * n, 70 + 9 * n, offset=0.1 * n, style=rng.normal()) for n in range(4)]
+    new = knee_hidden(walk("new", 11, offset=0.2), 20, 50)
+    means = []
+    for order in ([0, 1, 2, 3], [3, 1, 0, 2], [2, 3, 1, 0]):
+        named = [replace(training[place], name=f"walk {n}") for n, place in enumerate(order)]
+        means.append(ChannelKriging().fit(named).impute([new])[0].mean)
+    np.testing.assert_array_equal(means[1], means[0])
+    np.testing.assert_array_equal(means[2], means[0])

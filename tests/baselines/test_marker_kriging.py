@@ -165,3 +165,13 @@ def test_others_on_a_line_do_not_swing_the_marker_around_it(off):
     errors = np.abs(prediction.mean - recording(places).values)[hidden]
     assert errors.max() < 5.0
     assert (errors < 1.96 * np.sqrt(prediction.variance[hidden])).mean() > 0.8
+
+
+def test_neither_names_nor_order_of_training_change_a_fill():
+    """Of the others, 720 frames in all, about 400 count."""
+    others = [bending(seed) for seed in (5, 6, 7)]
+    means = []
+    for order in ([0, 1, 2], [2, 0, 1]):
+        named = [recording(others[place], f"other {n}") for n, place in enumerate(order)]
+        means.append(filled(bending(0), GAPS[0], named).mean)
+    np.testing.assert_array_equal(means[1], means[0])

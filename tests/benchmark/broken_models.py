@@ -269,6 +269,13 @@ class Pretends(_Mean):
         return [Prediction.around(recording, -99.0) for recording in recordings]
 
 
+class FirstOfNames(_Mean):
+    """Learns from the recording whose name comes first."""
+
+    def fit(self, recordings):
+        return super().fit([min(recordings, key=lambda recording: recording.name)])
+
+
 class FirstOnly(_Mean):
     """Learns from the first recording alone."""
 
@@ -408,6 +415,7 @@ NONCONFORMING = {
     Unseeded: "the same answer from the same seed",
     Pretends: "expected impute_uncalibrated to have the means of impute, got a difference of",
     FirstOnly: "recordings in another order, got a difference of",
+    FirstOfNames: "recordings with other names, got a difference of",
     Overwrites: "visible entries copied into the mean",
     VariesVisible: "expected no variance at visible entries",
     FramesOnly: "hidden entries are filled wherever they are, got NotImplementedError",

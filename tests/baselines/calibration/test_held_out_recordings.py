@@ -17,6 +17,7 @@ from mocapbench.baselines.calibration.held_out_recordings import (
 )
 from mocapbench.baselines.calibration.variance_check import VarianceCheck
 from mocapbench.baselines.calibration.ways import calibrate
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.datasets import Recording
 
 GAP = slice(80, 110)
@@ -60,9 +61,12 @@ def factor(model, learnt_from, recording):
 
 @pytest.mark.parametrize("nominal", [0.1, 1.0, 20.0])
 def test_variances_become_what_held_out_gaps_and_recordings_show(nominal):
-    training = [noise(name, 1.0, 3.0) for name in "abcdef"]
-    factors = factor(KeepsRecordings(nominal), training, with_gap(noise("new", 1.0, 3.0)))
-    np.testing.assert_allclose(factors * nominal, [1.0, 9.0], rtol=0.3)
+    """Channels of one unit move each other's a little."""
+    scales = [1.0, 3.0] * 20
+    training = [noise(name, *scales) for name in "abcdef"]
+    factors = factor(KeepsRecordings(nominal), training, with_gap(noise("new", *scales)))
+    means = factors.reshape(-1, 2).mean(axis=0)
+    np.testing.assert_allclose(means * nominal, [1.0, 9.0], rtol=0.45)
 
 
 @settings(max_examples=20, deadline=None)
@@ -174,7 +178,7 @@ def test_training_at_rest_beside_the_gap_is_the_limit_of_training_nearly_at_rest
     for rest in (0.0, 1e-9):
         still = np.full((200, 1), rest)
         still[40:160] = 1.0
-        training = [r.with_values(r.values * still) for r in (noise(n, 1.0) for n in "abcdef")]
+        training = [r.with_values(r.values * still) for r in (noise(n, 1.0) for n in "abc")]
         factors.append(factor(KeepsRecordings(), training, given))
     np.testing.assert_allclose(*factors)
     check = VarianceCheck(given)
@@ -198,13 +202,14 @@ def test_those_held_out_are_not_learnt_from_and_held_out_at_once_where_many_are_
     new, some, many = noise("new", 1.0), "abcd", "abcdefghijklmnop"
     for names, at_once in ((some, False), (many, True)):
         Watched.fits.clear()
-        training = [noise(name, 1.0) for name in names]
+        training = by_content([noise(name, 1.0) for name in names])
+        expected = [training[place].name for place in (0, len(names) // 2, -1)]
         held_out = [
             [r.name for r in held] for held, _ in hold_out_recordings([*training, new], new)
         ]
         calibrate(Watched(), [*training, new], [with_gap(new)])
         assert (len(held_out) == 1) is at_once
-        assert [*chain(*held_out)] == [names[0], names[len(names) // 2], names[-1]]
+        assert [*chain(*held_out)] == expected
         for learnt, held in zip(Watched.fits, held_out, strict=True):
             assert {*learnt, *held} == {*names, "new"}
             assert not set(learnt) & set(held)

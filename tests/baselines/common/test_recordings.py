@@ -13,7 +13,7 @@ from mocapbench.baselines.common.checks import (
     check_visible,
     pool,
 )
-from mocapbench.baselines.common.recordings import by_name, places_by_name, visible_moments
+from mocapbench.baselines.common.recordings import by_content, places_by_content, visible_moments
 from mocapbench.datasets import Recording
 
 
@@ -33,12 +33,37 @@ def test_moments_are_those_of_the_visible_entries(seed):
     np.testing.assert_allclose(variance, np.nanvar(values, axis=0), atol=1e-15)
 
 
-@given(names=st.lists(st.text(), min_size=1, unique=True))
-def test_what_is_in_the_order_of_names_comes_back_in_the_order_given(names):
-    given = [recording(name, [[0.0]]) for name in names]
-    ordered = by_name(given)
-    assert [one.name for one in ordered] == sorted(names)
-    assert [ordered[place] for place in places_by_name(given)] == given
+CONTENTS = st.lists(
+    st.tuples(*[st.sampled_from([-1.0, 0.0, 2.5, np.nan])] * 2), min_size=1, max_size=6, unique=True
+)
+
+
+@given(contents=CONTENTS, data=st.data())
+def test_what_is_in_the_order_of_contents_comes_back_in_the_order_given(contents, data):
+    names = data.draw(st.permutations([f"r{number}" for number in range(len(contents))]))
+    given = [recording(name, [values]) for name, values in zip(names, contents, strict=True)]
+    ordered = by_content(given)
+    assert [ordered[place] for place in places_by_content(given)] == given
+
+
+@given(contents=CONTENTS, data=st.data(), factor=st.sampled_from([1e-3, 0.1, 57.3]))
+def test_neither_names_nor_units_nor_where_a_recording_stands_change_the_order(
+    contents, data, factor
+):
+    given = [recording(f"r{number}", [values]) for number, values in enumerate(contents)]
+    names = data.draw(st.permutations([one.name for one in given]))
+    others = [
+        recording(name, factor * one.values)
+        for name, one in zip(names, data.draw(st.permutations(given)), strict=True)
+    ]
+    for one, other in zip(by_content(given), by_content(others), strict=True):
+        np.testing.assert_array_equal(other.values, factor * one.values)
+
+
+def test_shorter_recordings_come_first_and_of_equal_values_the_faster():
+    long, short = recording("a", [[0.0], [1.0]]), recording("b", [[5.0]])
+    fast = replace(long, name="c", times=long.times / 2)
+    assert [one.name for one in by_content([long, short, fast])] == ["b", "c", "a"]
 
 
 def test_moments_of_a_channel_without_visible_entries_are_nan():

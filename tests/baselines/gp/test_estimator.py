@@ -73,8 +73,9 @@ def test_what_a_model_says_is_said_by_its_fitted_process():
     model = MOHGP(max_iter=3).fit(recordings)
     process, times, given = model.process_, np.array([0.3, 0.1]), recordings[-1]
     assert isinstance(process, FittedProcess)
+    replicate = process.reduction.replicates[[*model.recordings_].index(given.name)]
     (mean, variance), (trend, _) = process.infer(
-        [process.reduction.replicates[-1], process.reduction.trend], [given.times, times]
+        [replicate, process.reduction.trend], [given.times, times]
     )
     hidden = ~given.visible
     (posterior,) = model.impute([given])

@@ -27,17 +27,35 @@ def test_stretches_are_shorter_where_there_would_be_fewer_than_four():
 
 
 def test_rows_are_spread_evenly():
-    rows = np.arange(11) + 5
-    np.testing.assert_array_equal(choose_evenly(rows, 3), [5, 10, 15])
-    np.testing.assert_array_equal(choose_evenly(rows, 20), rows)
-    assert not choose_evenly(rows[:0], 3).size
+    one = np.zeros(11, dtype=int)
+    np.testing.assert_array_equal(choose_evenly(one, 3), [0, 5, 10])
+    np.testing.assert_array_equal(choose_evenly(one, 1), [5])
+    np.testing.assert_array_equal(choose_evenly(one, 20), np.arange(11))
+    assert not choose_evenly(one[:0], 3).size
+
+
+def test_every_recording_gives_its_share_of_rows_wherever_it_stands():
+    lengths = {0: 60, 1: 30, 2: 7}
+    rng = np.random.default_rng(0)
+    for most in (1, 10, 50):
+        taken = set()
+        for order in ([0, 1, 2], [2, 0, 1], [1, 2, 0]):
+            numbers = rng.permutation(3)  # what a recording is called
+            recording = np.repeat(numbers[order], [lengths[one] for one in order])
+            frame = np.concatenate([np.arange(lengths[one]) for one in order])
+            called = {number: one for one, number in enumerate(numbers.tolist())}
+            some = choose_evenly(recording, most)
+            chosen = [(called[recording[row]], frame[row]) for row in some]
+            assert [sum(one == each for each, _ in chosen) for one in lengths] == [
+                -(-most * length // 97) for length in lengths.values()
+            ]
+            taken.add(frozenset(chosen))
+        assert len(taken) == 1
 
 
 def test_frames_are_taken_of_the_recording_and_of_all_others():
-    np.testing.assert_array_equal(choose_from_both(RECORDING == 4, 2), [60, 89, 0, 59])
-    np.testing.assert_array_equal(
-        choose_from_both(RECORDING == 9, 3), choose_evenly(np.arange(90), 3)
-    )
+    np.testing.assert_array_equal(choose_from_both(RECORDING, 4, 2), [60, 89, 0, 59])
+    np.testing.assert_array_equal(choose_from_both(RECORDING, 9, 3), choose_evenly(RECORDING, 3))
 
 
 def test_nothing_beside_what_is_learnt_predicts_better():
