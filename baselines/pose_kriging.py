@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
+from mocapbench.baselines.common.heading import turn_ahead, turn_back
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import by_content, visible_frames, with_steps
 from mocapbench.baselines.common.validation import (
@@ -77,6 +78,10 @@ class PoseKriging(FrameImputer, Inductive):
     :math:`\mu_k(t)`, and their weighted mean is the prediction :math:`\mu(t)`. A new subject counts
     as one more draw from those whose K paths are seen, so that the doubt is :math:`\frac{K + 1}{K -
     1} \sum_k w_k (\mu_k(t) - \mu(t))^2`. A single training recording says nothing about it.
+
+    Of the rotation and the path of a root such as the Acclaim format has, the mean heading of each
+    recording is taken out (``mocapbench.baselines.common.heading``): a motion is filled alike
+    wherever it stands and faces.
 
     A recording is unlike its training if no path explains the share ``least_explained`` of its
     variance at visible frames. It is filled from its own course over time, whatever was learnt, and
@@ -146,6 +151,9 @@ class PoseKriging(FrameImputer, Inductive):
     """
 
     family: ClassVar[str] = "Alignment"
+    provides: ClassVar[frozenset[str]] = (
+        FrameImputer.provides | Inductive.provides | {"turns along"}
+    )
 
     max_frames = 500
 
@@ -184,8 +192,9 @@ class PoseKriging(FrameImputer, Inductive):
         check_share("least_explained", self.least_explained)
         checked = by_content(check_recordings(recordings))
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.directions_ = mean_directions(checked)
-        usable = [in_pose_units(self._wrap_angles(one)) for one in with_steps(checked)]
+        ahead = [turn_ahead(recording)[0] for recording in checked]
+        self.directions_ = mean_directions(ahead)
+        usable = [in_pose_units(self._wrap_angles(one)) for one in with_steps(ahead)]
         self.names_ = tuple(recording.name for recording in usable)
         self.symmetries_ = find_symmetries(usable)
         self.matchers_ = [
@@ -217,10 +226,11 @@ class PoseKriging(FrameImputer, Inductive):
         return recording.with_values(recording.values - away)
 
     def _predict(self, recording: Recording) -> Prediction:
-        away = wrapping_offsets(recording, self.directions_)
-        near = recording.with_values(recording.values - away)
+        ahead, heading = turn_ahead(recording)
+        away = wrapping_offsets(ahead, self.directions_)
+        near = ahead.with_values(ahead.values - away)
         found = from_pose_units(near, *self._fill_frames(in_pose_units(near)))
-        return Prediction.around(recording, found.mean + away, found.variance)
+        return turn_back(recording, found.mean + away, found.variance, heading)
 
     def _fill_frames(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the mean and variance (N, D) of all frames given the visible ones."""

@@ -16,6 +16,7 @@ ABILITIES: Mapping[str, str] = {
     "fills frames": "fills gaps of whole frames",
     "fills new recordings": "new recordings too",
     "interpolates": "fills each channel by itself",
+    "turns along": "fills joint angles alike wherever a motion stands and faces",
     "draws samples": "synthesises",
     "clusters": "clusters",
     "aligns": "aligns",
@@ -32,6 +33,7 @@ ABILITIES: Mapping[str, str] = {
 IMPLIED: Mapping[str, str] = {
     "fills entries": "fills frames",
     "interpolates": "fills entries",
+    "turns along": "fills frames",
     "blends": "clusters",
     "has coregionalisation": "has layers",
     "has latent dynamics": "has a latent space",

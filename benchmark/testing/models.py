@@ -9,7 +9,7 @@ from typing import Any
 from sklearn.base import clone
 
 from mocapbench.baselines import ABILITIES, IMPLIED, NEEDS, Model
-from mocapbench.benchmark.testing import abilities, imputers, layers
+from mocapbench.benchmark.testing import abilities, imputers, layers, turns
 from mocapbench.benchmark.testing.errors import (
     global_randomness_untouched,
     raised_by,
@@ -160,6 +160,7 @@ _OF_ABILITY: Mapping[str, tuple[ModelCheck, ...]] = {
     ),
     "fills entries": (imputers.fills_any_mask,),
     "interpolates": (imputers.fills_channels_apart,),
+    "turns along": (turns.turns_along_with_motion,),
     "draws samples": (abilities.draws_samples,),
     "clusters": (abilities.clusters_every_recording, abilities.makes_one_cluster_of_one_style),
     "aligns": (abilities.aligns_every_frame,),

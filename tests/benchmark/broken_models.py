@@ -15,6 +15,7 @@ from mocapbench.baselines import (
     Imputer,
     Inductive,
     Interpolator,
+    PoseViterbi,
     Prediction,
     Synthesiser,
 )
@@ -283,6 +284,12 @@ class FirstOnly(_Mean):
         return super().fit(recordings[:1])
 
 
+class Compass(PoseViterbi):
+    """Matches poses as they face in the room."""
+
+    provides = PoseViterbi.provides | {"turns along"}
+
+
 class Overwrites(_Mean):
     """Puts its mean over what is visible."""
 
@@ -415,6 +422,7 @@ NONCONFORMING = {
     Unseeded: "the same answer from the same seed",
     Pretends: "expected impute_uncalibrated to have the means of impute, got a difference of",
     FirstOnly: "recordings in another order, got a difference of",
+    Compass: "the same fill of a walk that is turned by 90° and moved, got joints that differ",
     FirstOfNames: "recordings with other names, got a difference of",
     Overwrites: "visible entries copied into the mean",
     VariesVisible: "expected no variance at visible entries",

@@ -1,0 +1,73 @@
+"""A check of models that fill a motion alike wherever it stands and faces."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from mocapbench.basics.arrays import Array
+from mocapbench.benchmark.testing.errors import require
+from mocapbench.benchmark.testing.subject import Subject
+from mocapbench.datasets import Recording, joint_positions, open_archive
+
+__all__ = ["turn_motion", "turns_along_with_motion"]
+
+_WALKS = ("gait:01_01", "gait:02_01", "gait:03_01")
+"""Generated walkers, of whom the last one is filled."""
+_TURNS = (90.0, 180.0, -37.0)
+_AWAY = np.array([40.0, 0.0, -70.0])
+"""How far a motion is moved over the ground, in the unit of the root's path."""
+_MOST = 0.01
+"""What turns may change, as a share of the error."""
+
+
+def turns_along_with_motion(subject: Subject) -> None:
+    """Check that a motion that is turned about the vertical, and moved, is filled alike."""
+    *training, walk = _walks()
+    model, gap = subject.fit_model(training), np.zeros(walk.values.shape, dtype=bool)
+    gap[15:30] = True
+    joints = _place_joints(walk)
+    filled = _place_joints(_fill(model, walk, gap))
+    error = float(np.sqrt(np.mean((filled - joints)[15:30] ** 2)))
+    for degrees in _TURNS:
+        about = Rotation.from_euler("y", degrees, degrees=True)
+        moved = turn_motion(walk, degrees, _AWAY)
+        turned = _place_joints(_fill(model, moved, gap))
+        # The joints of the turned motion less their own truth, turned back.
+        change = about.inv().apply((turned - _place_joints(moved)).reshape(-1, 3))
+        gap_to = float(np.sqrt(np.mean((change - (filled - joints).reshape(-1, 3)) ** 2)))
+        require(
+            gap_to <= _MOST * error,
+            f"the same fill of a walk that is turned by {degrees:g}° and moved",
+            f"joints that differ by {gap_to / error:.2g} of their error",
+            "take out where each recording faces, or leave out 'turns along'",
+        )
+
+
+def turn_motion(recording: Recording, degrees: float, away: Array | float = 0.0) -> Recording:
+    """Return a motion of the Acclaim format turned about the y axis and moved, complete frames."""
+    values, names = recording.values.copy(), recording.channels
+    about = Rotation.from_euler("y", degrees, degrees=True)
+    angles = [names.index(f"root.r{axis}") for axis in "xyz"]
+    path = [names.index(f"root.t{axis}") for axis in "xyz"]
+    rotation = about * Rotation.from_euler("xyz", values[:, angles], degrees=True)
+    values[:, angles] = np.unwrap(rotation.as_euler("xyz", degrees=True), axis=0, period=360.0)
+    values[:, path] = about.apply(values[:, path]) + away
+    return recording.with_values(values)
+
+
+@cache
+def _walks() -> tuple[Recording, ...]:
+    archive, frames = open_archive(), np.arange(0, 200, 4)
+    return tuple(archive.recording(uri).frames(frames) for uri in _WALKS)
+
+
+def _fill(model: object, walk: Recording, gap: Array) -> Recording:
+    (prediction,) = model.impute([walk.hide(gap)])  # type: ignore[attr-defined]
+    return walk.with_values(prediction.mean)
+
+
+def _place_joints(recording: Recording) -> Array:
+    return np.asarray(joint_positions(open_archive().skeleton(_WALKS[-1]), recording))
