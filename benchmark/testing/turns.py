@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 
 import numpy as np
@@ -47,11 +48,11 @@ def turns_along_with_motion(subject: Subject) -> None:
 
 
 def turn_motion(recording: Recording, degrees: float, away: Array | float = 0.0) -> Recording:
-    """Return a motion of the Acclaim format turned about the y axis and moved, complete frames."""
+    """Return a complete motion of the Acclaim format turned about the y axis, its path shifted."""
     values, names = recording.values.copy(), recording.channels
     about = Rotation.from_euler("y", degrees, degrees=True)
     angles = [names.index(f"root.r{axis}") for axis in "xyz"]
-    path = [names.index(f"root.t{axis}") for axis in "xyz"]
+    path = [d for d, name in enumerate(names) if re.fullmatch(r"root\.d?t[xyz]", name)]
     rotation = about * Rotation.from_euler("xyz", values[:, angles], degrees=True)
     values[:, angles] = np.unwrap(rotation.as_euler("xyz", degrees=True), axis=0, period=360.0)
     values[:, path] = about.apply(values[:, path]) + away

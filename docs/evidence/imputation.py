@@ -4,8 +4,10 @@
 
     python docs/evidence/imputation.py walkers # pose-kriging, each training walker left out in turn
     python docs/evidence/imputation.py tasks   # both on the tasks themselves, with seconds
+    python docs/evidence/imputation.py frames  # channel-kriging, its learning frames drawn anew
+    python docs/evidence/imputation.py turns   # pose-kriging, the tests' motion turned about
 
-Only `tasks` uses the tests of `missing-frames` and `subject-35-missing`, which choose nothing.
+All but `walkers` use the tests of `missing-frames` and `subject-35-missing`, which choose nothing.
 """
 
 from __future__ import annotations
@@ -13,13 +15,17 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from itertools import product
+from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench import benchmark as bench
 from mocapbench.baselines import ChannelKriging, FrameImputer, PoseKriging
+from mocapbench.baselines.kriging import held_out_stretches
 from mocapbench.benchmark import METRICS, TASKS, Address, ImputeProblem, Seeds
 from mocapbench.benchmark.tasks.missing_frames import (
     FIRST_HIDDEN,
@@ -28,6 +34,7 @@ from mocapbench.benchmark.tasks.missing_frames import (
     N_TEST_FRAMES,
     TRAINING,
 )
+from mocapbench.benchmark.testing.turns import turn_motion
 from mocapbench.datasets import Recording, RecordingUnavailable, gpdm_features, one_based_frames
 from mocapbench.metrics import Imputation, coverage_95, rms_per_frame
 
@@ -137,5 +144,45 @@ def _posed(task: str, case: str, fold: int) -> ImputeProblem:
     return problem
 
 
+def frames() -> None:
+    """Print the errors of `ChannelKriging` with eight other choices of its learning frames."""
+    for part in ("right leg", "upper body"):
+        problem = _posed("subject-35-missing", part, 0)
+        rows = []
+        for seed in range(8):
+            shift = np.random.default_rng(seed)
+            with patch.object(held_out_stretches, "_spread", partial(_spread_anew, shift)):
+                outcome = _outcome(problem, ChannelKriging().fit(problem.train))
+            names = ("rms_angle", "cumulative_scaled_error")
+            rows.append([METRICS.get(name)(outcome).value for name in names])
+        each = [np.round(of(rows, axis=0), 3) for of in (np.mean, np.min, np.max)]
+        print(part, "mean, least and most:", *each, flush=True)
+
+
+def _spread_anew(shift: np.random.Generator, places: Array, number: int) -> Array:
+    """Return so many places in a row, each as far from the next, from a random one on."""
+    return places[((np.arange(number) + shift.random()) * len(places) / number).astype(int)]
+
+
+def turns() -> None:
+    """Print the scores of `PoseKriging` where the recording to fill is turned."""
+    rows = ("35-03", "16-21", "07-01", "07-02", "08-01", "08-02")
+    names = [f"{row} three-walkers" for row in rows]
+    for degrees in (0.0, 90.0, 180.0):
+        problems = [_posed("missing-frames", name, fold) for name in names for fold in range(12)]
+        scores = []
+        for problem in problems:
+            moved = _turn_problem(problem, degrees)
+            outcome = _outcome(moved, PoseKriging().fit(moved.train))
+            scores.append([METRICS.get(name)(outcome).value for name in ("rms_per_frame", "mpjpe")])
+        print(f"{degrees:g}°", np.round(np.mean(scores, axis=0), 3), flush=True)
+
+
+def _turn_problem(problem: ImputeProblem, degrees: float) -> ImputeProblem:
+    (given,), (truth,) = problem.given, problem.truth
+    turned = turn_motion(given.with_values(truth), degrees)
+    return replace(problem, given=(turned.hide(~given.visible),), truth=(turned.values,))
+
+
 if __name__ == "__main__":
-    {"walkers": walkers, "tasks": tasks}[sys.argv[1]]()
+    {"walkers": walkers, "tasks": tasks, "frames": frames, "turns": turns}[sys.argv[1]]()

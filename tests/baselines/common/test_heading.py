@@ -10,6 +10,7 @@ from mocapbench.baselines.common.heading import turn_ahead, turn_back
 from mocapbench.benchmark.testing.turns import turn_motion
 from mocapbench.datasets import Recording, joint_positions, open_archive
 
+N_DRAWS = 4000
 TURNS = (0.0, 37.0, 90.0, 180.0, -135.0)
 
 
@@ -51,13 +52,9 @@ def test_what_is_turned_ahead_is_turned_back_beside_what_is_visible(walk, degree
 @pytest.mark.parametrize("degrees", [0.0, 37.0, 180.0])
 def test_variances_are_those_of_draws(walk, degrees):
     """Where angles are far from ±90° about the y axis, and doubt is small."""
-    still, n_draws, rng = (
-        turn_motion(walk, degrees).frames([20, 21]),
-        4000,
-        np.random.default_rng(0),
-    )
-    pose = np.repeat(still.values[:1], n_draws + 2, axis=0)
-    whole = replace(still, values=pose, times=np.arange(n_draws + 2.0))
+    still, rng = turn_motion(walk, degrees).frames([20, 21]), np.random.default_rng(0)
+    pose = np.repeat(still.values[:1], N_DRAWS + 2, axis=0)
+    whole = replace(still, values=pose, times=np.arange(N_DRAWS + 2.0))
     hidden = np.zeros(pose.shape, dtype=bool)
     hidden[1:-1] = True
     ahead, heading = turn_ahead(whole)
