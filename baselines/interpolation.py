@@ -11,7 +11,7 @@ from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolato
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_known, check_recordings
-from mocapbench.baselines.common.recordings import visible_moments
+from mocapbench.baselines.common.recordings import visible_means
 from mocapbench.baselines.protocols import Inductive, Interpolator, Prediction
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
@@ -45,7 +45,7 @@ class _Interpolation(Interpolator, Inductive):
         """
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.mean_, _ = visible_moments(checked)
+        self.mean_ = visible_means(checked)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -59,21 +59,22 @@ class _Interpolation(Interpolator, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
-        return [Prediction.around(recording, self._curves(recording)) for recording in recordings]
+        return [Prediction(self._curves(recording)) for recording in recordings]
 
     def _curves(self, recording: Recording) -> FrameByChannel:
-        means = zip(recording.values.T, self.mean_, strict=True)
-        curves = np.column_stack([self._curve(recording.times, *channel) for channel in means])
+        curves = recording.values.copy()
+        for channel, mean in zip(curves.T, self.mean_, strict=True):
+            channel[np.isnan(channel)] = self._curve(recording.times, channel, mean)
         check_known(recording, np.asarray(~np.isnan(curves).any(axis=0)))
         return curves
 
     def _curve(self, times: Frames, values: Frames, mean: float) -> Frames:
-        """Return the curve of one channel (N,) at all times; ``mean`` where nothing is visible."""
+        """Return the curve of one channel where it is hidden; ``mean`` if nothing is visible."""
         seen = ~np.isnan(values)
         if seen.sum() < 2:
-            return np.full(len(times), values[seen][0] if seen.any() else mean)
+            return np.full(np.count_nonzero(~seen), values[seen][0] if seen.any() else mean)
         knots = times[seen]
-        return self._between(knots, values[seen], np.clip(times, knots[0], knots[-1]))
+        return self._between(knots, values[seen], np.clip(times[~seen], knots[0], knots[-1]))
 
     @staticmethod
     @abstractmethod

@@ -7,14 +7,14 @@ rule cannot tell, values stay, and the user may say what marks missing ones.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from functools import partial
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial, reduce
 from math import isfinite, nan
 
 import numpy as np
 
 from mocapbench.baselines.common.markers import markers_of, points_of
-from mocapbench.basics.arrays import Array
+from mocapbench.basics.arrays import Array, Index
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.basics.words import format_count, join_names
 from mocapbench.benchmark.errors import UsageError
@@ -44,6 +44,8 @@ ends it, and as long as usual the step beside one that is held at an end."""
 _COARSE, _MOSTLY = 0.05, 0.5
 """Share of coordinates that repeat by themselves in files of so few digits that all may; share of
 frames in which others move."""
+_BLOCK = 1024
+"""Frames that are looked at together, so that long recordings take no more memory."""
 
 
 Told = tuple[Mask, tuple[str, ...]]
@@ -170,13 +172,18 @@ def _zeros_of(recording: Recording) -> str:
 
 def find_zeros(recording: Recording) -> dict[str, Mask]:
     """Return the frames (N,) in which each marker that is elsewhere in others is at the origin."""
-    found = {}
+    found, zero = {}, recording.values == 0.0
     for name, places in points_of(recording.channels, recording.units).items():
-        values = recording.values[:, list(places)]
-        rows = (values == 0.0).all(axis=1)
-        if rows.any() and (np.nan_to_num(values) != 0.0).any():
+        rows = _in_all(zero, places)
+        if rows.any() and (np.nan_to_num(recording.values[:, list(places)]) != 0.0).any():
             found[name] = rows
     return found
+
+
+def _in_all(mask: Mask, places: Sequence[int]) -> Mask:
+    """Return where a mask (N, D) is True in all of some channels (N,)."""
+    # Not all() along the last axis, which takes ten times as long where that is short.
+    return np.asarray(reduce(np.logical_and, (mask[:, place] for place in places)))
 
 
 def _is_far(values: Array, zero: Mask) -> bool:
@@ -201,21 +208,32 @@ def _is_far(values: Array, zero: Mask) -> bool:
 def _tell_number(recording: Recording) -> Told:
     """Tell a number that nothing measures: of nines alone, or far beyond all of its channel."""
     values = recording.values
-    sizes = np.abs(np.nan_to_num(values))
-    largest = sizes.max(axis=0, initial=0.0)
-    at = np.equal(sizes, largest)
-    rest = np.where(at, 0.0, sizes).max(axis=0, initial=0.0)
+    largest, count, rest = _measure_sizes(values)
     nines = np.array([_is_nines(size) for size in largest], dtype=bool)
-    often = at.sum(axis=0) >= _REPEATED
+    often = count >= _REPEATED
     told = (rest > 0) & (
         (nines & (largest > _ABOVE_NINES * rest)) | (often & (largest > _ABOVE_ALL * rest))
     )
-    numbers = np.unique(values[at & told])
+    of_told = values[:, told]
+    numbers = np.unique(of_told[np.abs(of_told) == largest[told]])
     remarks = (
         f"{number:.10g} stands where nothing else of the channel is near: {_READ_AS_MISSING}"
         for number in numbers
     )
     return np.isin(values, numbers), tuple(remarks)
+
+
+def _measure_sizes(values: Array) -> tuple[Array, Index, Array]:
+    """Return the largest size in each channel (D,), how often it occurs, and the next one."""
+    highest, lowest = np.fmax.reduce(values, initial=0.0), np.fmin.reduce(values, initial=0.0)
+    largest = np.maximum(highest, -lowest)  # whatever is NaN
+    count, rest = np.zeros(len(largest), dtype=np.intp), np.zeros(len(largest))
+    for at in range(0, len(values), _BLOCK):
+        sizes = np.abs(values[at : at + _BLOCK])
+        is_largest = sizes == largest
+        count += is_largest.sum(axis=0)
+        rest = np.fmax(rest, np.fmax.reduce(np.where(is_largest, 0.0, sizes), axis=0))
+    return largest, count, rest
 
 
 def _is_nines(size: float) -> bool:
@@ -253,27 +271,29 @@ def find_held(recording: Recording) -> Iterator[tuple[str, int, int, bool]]:
     """
     markers = markers_of(recording.channels, recording.units)
     places = np.array([*markers.values()], dtype=np.intp).reshape(-1, 3)
-    values = recording.values[:, places]  # (N, M, 3)
-    seen = np.asarray(np.isfinite(values).all(axis=2))
-    both = np.zeros(seen.shape, dtype=bool)
-    both[1:] = seen[1:] & seen[:-1]
-    same = _repeat_last(values)
-    held = same.all(axis=2) & both & (values != 0.0).any(axis=2)
-    others_move = 2 * (both & ~held).sum(axis=1) >= np.maximum(2, both.sum(axis=1))
-    for place, name in enumerate(markers):
-        if _is_fine(same[both[:, place] & ~held[:, place], place]):
-            for start, stop in run_bounds(held[:, place]).tolist():
+    masks = recording.visible, _repeat_last(recording.values), recording.values == 0.0
+    # By marker (M, 3, N): what is looked at together is close together in memory.
+    visible, same, zero = (np.take(mask.T, places, axis=0) for mask in masks)
+    both = visible.all(axis=1)
+    both[:, 1:] &= both[:, :-1].copy()
+    both[:, :1] = False
+    held = both & same.all(axis=1) & ~zero.all(axis=1)
+    others_move = 2 * (both & ~held).sum(axis=0) >= np.maximum(2, both.sum(axis=0))
+    for number, name in enumerate(markers):
+        if _is_fine([axis[both[number] & ~held[number]] for axis in same[number]]):
+            for start, stop in run_bounds(held[number]).tolist():
                 if stop - start >= _LEAST_HELD:
                     alone = bool(others_move[start:stop].mean() >= _MOSTLY)
-                    yield name, start, stop, alone and _is_sudden(values[:, place], start, stop)
+                    values = recording.values[:, places[number]]
+                    yield name, start, stop, alone and _is_sudden(values, start, stop)
 
 
-def _is_fine(same: Mask) -> bool:
-    """Return whether coordinates have so many digits that hardly any repeats in a step (K, 3).
+def _is_fine(same: Sequence[Mask]) -> bool:
+    """Return whether coordinates (3, K) have so many digits that hardly any repeats in a step.
 
     A coordinate that never changes does not count.
     """
-    shares = np.mean(same, axis=0) if len(same) else np.ones(3)
+    shares = np.array([np.mean(axis) if len(axis) else 1.0 for axis in same])
     changing = shares[shares < 1.0]
     return bool(len(changing) and changing.mean() <= _COARSE)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from mmap import mmap
 from typing import Any
 
 import numpy as np
@@ -29,14 +30,17 @@ def _freeze(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _is_frozen(numbers: NDArray[np.float64]) -> bool:
-    """Return whether an array is on immutable bytes; unpickled ones are on bytes, but writeable."""
+    """Return whether an array is on immutable bytes, or on a file that can only be read.
+
+    Unpickled ones are on bytes, but writeable.
+    """
     base: object = numbers
-    while type(base) is np.ndarray:
+    while isinstance(base, np.ndarray):
         base = base.base
     try:
         numbers.view().setflags(write=True)
     except ValueError:
-        return type(base) is bytes
+        return isinstance(base, bytes | mmap) and memoryview(base).readonly
     return False
 
 
@@ -177,7 +181,7 @@ class Recording:
         return replace(self, values=np.asarray(values, dtype=np.float64))
 
     def hide(self, hidden: ArrayLike) -> Recording:
-        """Return a copy whose entries are NaN where ``hidden`` is True.
+        """Return the recording with entries NaN where ``hidden`` is True; itself if all are.
 
         Parameters
         ----------
@@ -196,7 +200,8 @@ class Recording:
                 f"recording {self.name!r}: expected True or False for each entry to hide, of shape "
                 f"{shape} (times, channels), got {mask.dtype} of shape {mask.shape}"
             )
-        return self.with_values(np.where(mask, np.nan, self.values)) if mask.any() else self
+        hides = (mask & self.visible).any()
+        return self.with_values(np.where(mask, np.nan, self.values)) if hides else self
 
     def select(self, channels: Sequence[str]) -> Recording:
         """Return the named channels, in the order given.

@@ -21,6 +21,7 @@ __all__ = [
     "stack",
     "stretches",
     "visible_frames",
+    "visible_means",
     "visible_moments",
     "with_steps",
 ]
@@ -73,12 +74,20 @@ def visible_moments(recordings: Sequence[Recording]) -> tuple[Array, Array]:
 
     They are NaN where a channel has none.
     """
-    values = stack(recordings)
-    seen = ~np.isnan(values)
-    counts = np.where(seen.any(axis=0), seen.sum(axis=0), np.nan)
-    mean = np.where(seen, values, 0.0).sum(axis=0) / counts
-    variance = np.where(seen, (values - mean) ** 2, 0.0).sum(axis=0) / counts
+    values, mean = stack(recordings), visible_means(recordings)
+    variance = _average_visible((values - mean) ** 2, ~np.isnan(values))
     return mean, variance
+
+
+def visible_means(recordings: Sequence[Recording]) -> Array:
+    """Return the mean of each channel's visible entries (D,), NaN where it has none."""
+    values = stack(recordings)
+    return _average_visible(values, ~np.isnan(values))
+
+
+def _average_visible(values: FrameByChannel, seen: Mask) -> Array:
+    counts = np.where(seen.any(axis=0), seen.sum(axis=0), np.nan)
+    return np.asarray(np.where(seen, values, 0.0).sum(axis=0) / counts)
 
 
 def hidden_frames(recording: Recording) -> Mask:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -110,7 +109,7 @@ def fill(
     # What stays open by the user's hand is a part of the problem, so that it changes nothing else.
     choice = choose(problem, workers, effort, watch) if BEST in named[kept] else None
     all_kinds, kinds = _number_kinds(problem)
-    plan = list(_plan_models(named, kept, [all_kinds[k] for k in kinds.tolist()], choice))
+    plan = list(_plan_models(named, kept, all_kinds, kinds, choice))
     work = choice.work if choice else np.inf
     attempts = _attempt_best_first(problem, [each for _, each in plan], workers, work)
     models = np.full(named.shape, "", object)
@@ -162,17 +161,21 @@ def _number_kinds(problem: GapProblem) -> tuple[tuple[Kind, ...], Index]:
 
 
 def _plan_models(
-    named: NDArray[np.str_], kept: Mask, kinds: Sequence[Kind], choice: Choice | None
+    named: NDArray[np.str_],
+    kept: Mask,
+    all_kinds: Sequence[Kind],
+    kinds: Index,
+    choice: Choice | None,
 ) -> Iterator[tuple[Index, tuple[str, ...]]]:
     """Yield kept entries that are filled alike, with the models that may fill them in order."""
-    groups: dict[tuple[Kind, str], list[int]] = defaultdict(list)
-    for entry in np.flatnonzero(kept).tolist():
-        groups[kinds[entry], str(named[entry])].append(entry)
-    for (kind, name), entries in groups.items():
-        if choice is not None and name == BEST:
-            yield np.array(entries), choice.find_ranking(kind).order
+    names, of_name = np.unique(named, return_inverse=True)
+    together = np.where(kept, kinds * len(names) + of_name, -1)
+    for number in np.unique(together[kept]).tolist():
+        entries, (kind, name) = np.flatnonzero(together == number), divmod(number, len(names))
+        if choice is not None and names[name] == BEST:
+            yield entries, choice.find_ranking(all_kinds[kind]).order
         else:
-            yield np.array(entries), (name,)
+            yield entries, (str(names[name]),)
 
 
 def _attempt_best_first(

@@ -98,9 +98,14 @@ def find_gaps(hidden: Mask) -> tuple[Gap, ...]:
     """Return the gaps of a mask (N, D), by their first frame; together they are the mask."""
     alike: dict[tuple[int, int], list[int]] = defaultdict(list)
     # All channels at once: a recording may have hundreds, of which few have gaps.
-    channels, edges = np.nonzero(np.diff(hidden.T, axis=1, prepend=False, append=False))
-    for channel, (start, stop) in zip(channels[::2].tolist(), edges.reshape(-1, 2), strict=True):
-        alike[int(start), int(stop)].append(channel)
+    is_edge = np.zeros((len(hidden) + 1, hidden.shape[1]), dtype=bool)
+    is_edge[:-1] = hidden
+    is_edge[1:] ^= hidden
+    frames, channels = np.divmod(np.flatnonzero(is_edge), hidden.shape[1])
+    by_channel = np.argsort(channels, kind="stable")
+    bounds = frames[by_channel].reshape(-1, 2).tolist()
+    for channel, (start, stop) in zip(channels[by_channel][::2].tolist(), bounds, strict=True):
+        alike[start, stop].append(channel)
     return tuple(Gap(start, stop, tuple(alike[start, stop])) for start, stop in sorted(alike))
 
 

@@ -32,6 +32,8 @@ class InputFile:
         In which it is read and written.
     request : FillRequest
         What of it is to be filled.
+    stated : Recording
+        The recording as the file has it.
     remarks : tuple of str
         What is to be said of missing values in the files.
     spikes : tuple of Gap
@@ -41,6 +43,7 @@ class InputFile:
     path: Path
     format: Format
     request: FillRequest
+    stated: Recording
     remarks: tuple[str, ...] = ()
     spikes: tuple[Gap, ...] = ()
 
@@ -104,7 +107,9 @@ def _read_input_file(
     reading: Reading,
     entries: NamedEntries,
 ) -> InputFile:
-    file, (recording, remarks) = reading.format_of(path), reading.read(path)
+    file = reading.format_of(path)
+    stated = file.read_as_stated(path, reading.rate)
+    recording, remarks = reading.interpret(path, stated)
     results = file.results(path, recording.channels)
     spikes, said_of_spikes = reading.find_spikes(recording, results)
     recording = recording.hide(spikes)
@@ -115,7 +120,7 @@ def _read_input_file(
     except NothingToFillError as error:
         raise NothingToFillError(f"{error}{reading.suggest_likelihoods(path)}") from None
     said = (*remarks, *said_of_spikes, *of_train)
-    return InputFile(path, file, request, said, find_gaps(spikes & request.target))
+    return InputFile(path, file, request, stated, said, find_gaps(spikes & request.target))
 
 
 def compose_request(

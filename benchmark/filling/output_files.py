@@ -17,7 +17,7 @@ from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gaps import Gap, mask_gaps
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.benchmark.runs.execution.scratch import scratch_folder, sweep_scratch
-from mocapbench.datasets import FrameByChannel
+from mocapbench.datasets import FrameByChannel, Mask
 from mocapbench.reports import csv_text
 
 __all__ = [
@@ -67,7 +67,8 @@ def _name_outputs_of(file: Path, folder: Path) -> OutputPaths:
 def require_writable(source: InputFile, outputs: OutputPaths) -> None:
     """Refuse a file whose outputs could not be written, before anything is computed.
 
-    A copy is written elsewhere, in which the nearest visible values stand for those to be filled.
+    A copy is written elsewhere, in which the first entry to fill of each channel has the nearest
+    visible value.
 
     Raises
     ------
@@ -79,11 +80,13 @@ def require_writable(source: InputFile, outputs: OutputPaths) -> None:
     require_short_names("--out", outputs)
     _require_new(outputs)
     request = source.request
-    whole = request.given.with_values(_hold_nearest(request.given.values))
+    first = np.zeros_like(request.target)
+    channels = np.flatnonzero(request.target.any(axis=0))
+    first[request.target[:, channels].argmax(axis=0), channels] = True
+    whole = request.given.with_values(_hold_nearest(request.given.values, first))
     with scratch_folder() as folder:
-        source.format.write(
-            folder / outputs[0].name, whole, like=source.path, replaced=request.target
-        )
+        copy = folder / outputs[0].name
+        source.format.write(copy, whole, source.path, first, source.stated)
 
 
 def _require_new(outputs: OutputPaths) -> None:
@@ -121,19 +124,13 @@ def reserve_outputs(outputs: OutputPaths) -> Iterator[OutputPaths]:
         raise
 
 
-def _hold_nearest(values: FrameByChannel) -> FrameByChannel:
-    """Return values (N, D) with the nearest visible one in place of each NaN, or else 0."""
+def _hold_nearest(values: FrameByChannel, hidden: Mask) -> FrameByChannel:
+    """Return values (N, D) with the nearest visible one where hidden, or else 0."""
     result = values.copy()
-    for column in result.T:
-        hidden = np.isnan(column)
-        seen, frames = np.flatnonzero(~hidden), np.flatnonzero(hidden)
-        if len(seen):
-            place = np.searchsorted(seen, frames)
-            after, before = seen[place.clip(max=len(seen) - 1)], seen[(place - 1).clip(min=0)]
-            nearer = np.abs(frames - before) <= np.abs(after - frames)
-            column[frames] = column[np.where(nearer, before, after)]
-        else:
-            column[:] = 0.0
+    for frame, channel in np.argwhere(hidden).tolist():
+        seen = np.flatnonzero(~np.isnan(values[:, channel]))
+        nearest = seen[np.abs(seen - frame).argsort(kind="stable")[:1]]
+        result[frame, channel] = next(iter(values[nearest, channel]), 0.0)
     return result
 
 
@@ -164,7 +161,7 @@ def write(
     """
     copy_path, entries_path, gaps_path, page_path = outputs
     input_file.format.write(
-        copy_path, filled.recording, like=input_file.path, replaced=filled.request.target
+        copy_path, filled.recording, input_file.path, filled.request.target, input_file.stated
     )
     write_text(entries_path, csv_text(tabulate_entries(filled, input_file.spikes)))
     write_text(gaps_path, csv_text(gaps_table))

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import itertools
-import pickle
 import signal
 from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from contextlib import ExitStack
-from functools import lru_cache, partial
+from functools import partial
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Protocol, Self
 
+import joblib
 from pebble import ProcessExpired
 
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
@@ -107,8 +107,7 @@ class Workers:
     def keep(self, problem: GapProblem) -> Path:
         """Write a problem where the workers read it, and return the file."""
         path = self._folder / f"problem-{next(self._numbers)}"
-        with path.open("wb") as file:
-            pickle.dump(problem, file, protocol=pickle.HIGHEST_PROTOCOL)
+        joblib.dump(problem, path)
         return path
 
     def submit(
@@ -163,16 +162,16 @@ def _attempt_in_child(
 ) -> FillAttempt:
     """Return one attempt of so many seconds of work, made in a child of this process."""
     load_plugins_once(plugins)
-    model, calibration, given = MODELS.get(name), find_calibration(name), _read_problem(problem)
+    model, calibration = MODELS.get(name), find_calibration(name)
     attempt = partial(
-        attempt_fill,
+        _attempt_kept,
         seconds=min(seconds, LONGEST),
         seed=seed,
         method=method,
         calibration=calibration,
     )
     try:
-        made: FillAttempt = call_in_child(attempt, model, given, memory, timeout=lasting)
+        made: FillAttempt = call_in_child(attempt, model, problem, memory, timeout=lasting)
     except TimeoutError:
         made = FillAttempt(None, f"was stopped after {lasting:.3g} s", stopped=True)
     except ProcessDiedError as error:
@@ -188,8 +187,6 @@ def _explain_death(exit_code: int, seconds: float) -> FillAttempt:
     return FillAttempt(None, f"its process died with exit code {exit_code}")
 
 
-@lru_cache(maxsize=2)
-def _read_problem(path: Path) -> GapProblem:
-    with path.open("rb") as file:
-        problem: GapProblem = pickle.load(file)
-    return problem
+def _attempt_kept(model: Any, path: Path, memory: int, **options: Any) -> FillAttempt:
+    """Return the attempt at a problem of which all processes share one copy in memory."""
+    return attempt_fill(model, joblib.load(path, mmap_mode="r"), memory, **options)

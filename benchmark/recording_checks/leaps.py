@@ -43,13 +43,13 @@ def find_spikes(paths: MotionPaths) -> pd.DataFrame:
         between a leap and a gap. The frames of a jump are the two that it is between.
     """
     leaps = find_leaps(paths, _BEYOND)
-    lone = leaps & _find_lone(paths.sizes, _LONE_FLOOR * paths.least_leaps)
+    lone = _find_lone(paths.sizes, leaps, _LONE_FLOOR * paths.least_leaps)
     visible = ~np.isnan(paths.positions[..., 0])
     rows = [
         (kind, (paths.names[m],), start, stop, size)
         for m in np.flatnonzero(leaps.any(axis=0)).tolist()
         for kind, start, stop, size in _tell_spikes(
-            paths.measure_excess(np.array([m]))[:, 0], leaps[:, m], lone[:, m], visible[:, m]
+            paths.measure_excess(m), leaps[:, m], lone[:, m], visible[:, m]
         )
     ]
     return tabulate_findings(rows)
@@ -57,14 +57,22 @@ def find_spikes(paths: MotionPaths) -> pd.DataFrame:
 
 def find_leaps(paths: MotionPaths, beyond: float) -> Mask:
     """Return which steps (N - 1, M) exceed the median by so many times what is usual."""
-    return np.asarray(paths.sizes > np.maximum(beyond * paths.usual_sizes, paths.least_leaps))
+    leaps = np.zeros_like(paths.may_leap)
+    for m in np.flatnonzero(paths.may_leap.any(axis=0)).tolist():
+        floor = np.maximum(beyond * paths.usual_sizes[:, m], paths.least_leaps[m])
+        leaps[:, m] = paths.sizes[:, m] > floor
+    return leaps
 
 
-def _find_lone(sizes: Array, floor: Array) -> Mask:
-    """Return which sizes of steps (N - 1, M) exceed floors (M,), and those beside them by far."""
-    sizes = np.pad(np.nan_to_num(sizes), ((1, 1), (0, 0)))
-    beside = np.maximum(sizes[:-2], sizes[2:])
-    return np.asarray(sizes[1:-1] > np.maximum(_LONE * beside, floor))
+def _find_lone(sizes: Array, leaps: Mask, floor: Array) -> Mask:
+    """Return which leaps (N - 1, M) exceed floors (M,), and the steps beside them by far."""
+    lone, last = np.zeros_like(leaps), len(leaps) - 1
+    steps, markers = np.nonzero(leaps)
+    before = np.where(steps > 0, sizes[steps - 1, markers], 0.0)
+    after = np.where(steps < last, sizes[(steps + 1).clip(max=last), markers], 0.0)
+    beside = np.nan_to_num(np.fmax(before, after))
+    lone[steps, markers] = sizes[steps, markers] > np.maximum(_LONE * beside, floor[markers])
+    return lone
 
 
 def _tell_spikes(

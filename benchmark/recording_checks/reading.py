@@ -51,7 +51,11 @@ class Reading(NamedTuple):
 
         It has the name of its path, since models want distinct names.
         """
-        likely = self.read_as_stated(path)
+        return self.interpret(path, self.format_of(path).read_as_stated(path, self.rate))
+
+    def interpret(self, path: Path, stated: Recording) -> tuple[Recording, tuple[str, ...]]:
+        """Return what `read` does, of a file whose format has read it as it is."""
+        likely = self._hide_unlikely(path, replace(stated, name=str(path)))
         mask, remarks = self.missing(likely)
         return unwrap_angles(likely.hide(mask)), remarks
 

@@ -7,7 +7,6 @@ same marker over as many frames.
 
 from __future__ import annotations
 
-import warnings
 from collections import defaultdict
 from collections.abc import Iterator
 
@@ -18,7 +17,7 @@ from mocapbench.basics.arrays import Array, Index
 from mocapbench.basics.mask_runs import run_bounds
 from mocapbench.benchmark.recording_checks.findings_table import tabulate_findings
 from mocapbench.benchmark.recording_checks.leaps import find_leaps
-from mocapbench.benchmark.recording_checks.paths import MotionPaths
+from mocapbench.benchmark.recording_checks.paths import MotionPaths, measure_lengths
 
 __all__ = ["find_swaps"]
 
@@ -127,7 +126,7 @@ def _measure_misses(
 
 def _measure_distances(paths: MotionPaths, places: Array, frames: Index) -> Array:
     """Return how far each of K places is from M markers in a frame each (K, M)."""
-    return np.asarray(np.linalg.norm(paths.positions[frames] - places[:, None], axis=2))
+    return measure_lengths(paths.positions[frames] - places[:, None])
 
 
 def _measure_speed(paths: MotionPaths, marker: Index, frames: Index) -> Array:
@@ -136,10 +135,11 @@ def _measure_speed(paths: MotionPaths, marker: Index, frames: Index) -> Array:
     last = len(paths.missing_rows) - 1
     inside = (near >= 0) & (near <= last)
     steps = paths.take_steps(near.clip(0, last), marker[:, None])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # of markers of which none is visible
-        medians = np.nanmedian(np.where(inside[..., None], steps, np.nan), axis=1)
-    return np.asarray(np.nan_to_num(medians))
+    steps[~inside] = np.nan
+    ordered, count = np.sort(steps, axis=1), (~np.isnan(steps)).sum(axis=1, keepdims=True)
+    low, high = ((count - 1) // 2).clip(min=0), count // 2
+    middle = [np.take_along_axis(ordered, place, axis=1)[:, 0] for place in (low, high)]
+    return np.nan_to_num((middle[0] + middle[1]) / 2)  # NumPy's median takes ten times as long
 
 
 def _measure_usual(paths: MotionPaths, marker: Index, last: Index, first: Index) -> Array:

@@ -16,7 +16,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from mocapbench.basics.arrays import Array
-from mocapbench.datasets.formats.quaternions import align_quaternions, finish_quaternions
+from mocapbench.datasets.formats.quaternions import (
+    align_quaternions,
+    find_quaternions,
+    finish_quaternions,
+)
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recording
 
 __all__ = ["mean_directions", "unwrap_angles", "wrap_angles", "wrapping_offsets"]
@@ -46,6 +50,8 @@ def unwrap_angles(recording: Recording) -> Recording:
     >>> unwrap_angles(turning).values.ravel()
     array([170.,  nan, 185.])
     """
+    if not _has_rotations(recording):
+        return recording
     values = align_quaternions(recording.values, recording.channels)
     for channel, unit in enumerate(recording.units):
         if unit in _PERIODS:
@@ -69,6 +75,8 @@ def wrap_angles(values: FrameByChannel, original: Recording, new: Mask) -> Frame
     new : ndarray of bool of shape (N, D)
         The entries that are to be written; others are returned as they are.
     """
+    if not _has_rotations(original):
+        return values
     result = finish_quaternions(values, original.channels, original.values, new)
     for channel, unit in enumerate(original.units):
         rows = new[:, channel]
@@ -76,6 +84,12 @@ def wrap_angles(values: FrameByChannel, original: Recording, new: Mask) -> Frame
             kept = original.values[:, channel]
             result[rows, channel] = _wrap_as_kept(values[:, channel], kept, _PERIODS[unit])[rows]
     return result
+
+
+def _has_rotations(recording: Recording) -> bool:
+    """Return whether any channel is an angle, or a part of a quaternion."""
+    angles = any(unit in _PERIODS for unit in recording.units)
+    return angles or bool(find_quaternions(recording.values, recording.channels))
 
 
 def mean_directions(recordings: Sequence[Recording]) -> Array:

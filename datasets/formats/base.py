@@ -198,7 +198,12 @@ class Format(ABC):
             return recording
 
     def write(
-        self, path: str | Path, filled: Recording, like: str | Path, replaced: Mask | None = None
+        self,
+        path: str | Path,
+        filled: Recording,
+        like: str | Path,
+        replaced: Mask | None = None,
+        stated: Recording | None = None,
     ) -> None:
         """Write a copy of a file whose gaps are filled.
 
@@ -214,6 +219,8 @@ class Format(ABC):
         replaced : ndarray of bool of shape (N, D) or None
             The entries that were filled; None stands for those that the file lacks. All others stay
             as they are, to the last digit.
+        stated : Recording or None
+            What `read_as_stated` has returned of ``like``; None has it read again.
 
         Raises
         ------
@@ -227,7 +234,7 @@ class Format(ABC):
         if path.resolve() == like.resolve():
             advice = "choose another name or folder"
             raise FormatError(str(named), "another file than the one read", "the same", advice)
-        raw = self.read_as_stated(like, rate=1.0)  # a rate, as times are not written
+        raw = stated or self.read_as_stated(like, rate=1.0)  # a rate, as times are not written
         _check_shape(filled, raw, named)
         new = (~raw.visible if replaced is None else np.asarray(replaced, dtype=bool)) & (
             filled.visible

@@ -80,7 +80,7 @@ def _check_times(file: str, times: Frames) -> None:
 
 
 def _check_values(file: str, values: FrameByChannel, channels: Sequence[str]) -> None:
-    for frame, channel in np.argwhere(np.abs(values) > _HUGE)[:1]:
+    for frame, channel in np.argwhere((values > _HUGE) | (values < -_HUGE))[:1]:
         raise FormatError(
             file,
             f"finite numbers, {-_HUGE:g} to {_HUGE:g}, or nothing where an entry is missing",

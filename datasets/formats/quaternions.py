@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask
 
-__all__ = ["align_quaternions", "finish_quaternions"]
+__all__ = ["align_quaternions", "find_quaternions", "finish_quaternions"]
 
 _PART = re.compile(r"(.*?[._: -])?q(?:uat(?:ernion)?)?[._ -]?([wxyz]|[0-4])", re.IGNORECASE)
 _PARTS = [set("wxyz"), set("0123"), set("1234")]
@@ -32,7 +32,7 @@ def align_quaternions(values: FrameByChannel, channels: Sequence[str]) -> FrameB
         Four of which are called ``Hips.qw``, ``Hips.qx``, ``Hips.qy``, ``Hips.qz``, for instance.
     """
     result = values.copy()
-    for places in _find_quaternions(values, channels):
+    for places in find_quaternions(values, channels):
         result[:, places] *= _choose_signs(values[:, places])[:, np.newaxis]
     return result
 
@@ -53,7 +53,7 @@ def finish_quaternions(
         The entries that are to be written; a quaternion of which some stay keeps its length.
     """
     result = values.copy()
-    for places in _find_quaternions(original, channels):
+    for places in find_quaternions(original, channels):
         lengths = np.linalg.norm(values[:, places], axis=1)
         whole = new[:, places].all(axis=1) & (lengths > 0)
         scales = _choose_signs(original[:, places]) / np.where(whole, lengths, 1.0)
@@ -61,7 +61,7 @@ def finish_quaternions(
     return np.where(new, result, values)
 
 
-def _find_quaternions(values: FrameByChannel, channels: Sequence[str]) -> list[list[int]]:
+def find_quaternions(values: FrameByChannel, channels: Sequence[str]) -> list[list[int]]:
     """Return the channels of each quaternion."""
     found: dict[str, dict[str, int]] = {}
     for place, name in enumerate(channels):

@@ -58,7 +58,9 @@ class C3DFormat(Format):
         if layout.scale > 0:
             warn_of_scales(path.name, parameters)
         labels, groups = _name_points(layout, parameters)
-        values = _visible_points(layout, layout.points(path, "r"), groups)
+        values = np.empty((layout.n_frames, 3 * layout.n_points))
+        for frames, points in layout.blocks(path, "r"):
+            values[frames] = _visible_points(layout, points, groups)
         times = even_times(layout.n_frames, rate or frame_rate(path.name, parameters))
         units = [unit for group in groups for unit in 3 * [unit_of_group(parameters, group)]]
         return recording_of(path.name, times, values, marker_channels(labels), units)
@@ -68,14 +70,18 @@ class C3DFormat(Format):
         parameters = read_parameters(like)
         layout = find_layout(like, parameters)
         _, groups = _name_points(layout, parameters)
-        given = _visible_points(layout, layout.points(like, "r"), groups)
-        new = new & _whole_points(new | ~np.isnan(given))
+        new = new.copy()
+        for frames, points in layout.blocks(like, "r"):
+            visible = ~np.isnan(_visible_points(layout, points, groups))
+            new[frames] &= _whole_points(new[frames] | visible)
         stored = _encode_coordinates(like, layout, values[new])
         shutil.copyfile(like, path)
-        points = layout.points(path, "r+")
-        frames, channels = np.nonzero(new)
-        points[frames, channels // 3, channels % 3] = stored
-        points[frames, channels // 3, 3] = 0  # residual: calculated, in any format
+        stops = np.cumsum(np.count_nonzero(new, axis=1))
+        for frames, points in layout.blocks(path, "r+"):
+            at, channels = np.nonzero(new[frames])
+            stop = int(stops[frames][-1])
+            points[at, channels // 3, channels % 3] = stored[stop - len(at) : stop]
+            points[at, channels // 3, 3] = 0  # residual: calculated, in any format
 
     def results(self, path: Path, channels: Sequence[str]) -> tuple[str, ...]:
         """Return the channels of results, as the file's parameters or their names say."""
@@ -94,12 +100,12 @@ def _visible_points(
     layout: C3DLayout, points: NDArray[Any], groups: Sequence[str]
 ) -> FrameByChannel:
     """Return the numbers of points (N, M, 4) as (N, 3 · M), NaN where they are not valid."""
-    positions = layout.decode(points[..., :3])
-    measured = layout.decode(points[..., 3]) >= 0
-    may_be_zero = [group not in {"", POSITIONS} for group in groups]
-    placed = (positions != 0).any(axis=2) | may_be_zero
-    positions[~(measured & np.isfinite(positions).all(axis=2) & placed)] = np.nan
-    return positions.reshape(len(points), -1)
+    may_be_zero = np.array([group not in {"", POSITIONS} for group in groups], dtype=bool)
+    numbers = layout.decode(points)
+    x, y, z, residual = np.moveaxis(numbers, 2, 0)
+    placed = (x != 0) | (y != 0) | (z != 0) | may_be_zero
+    valid = placed & (residual >= 0) & np.isfinite(x) & np.isfinite(y) & np.isfinite(z)
+    return np.where(valid[..., np.newaxis], numbers[..., :3], np.nan).reshape(len(points), -1)
 
 
 def _whole_points(known: Mask) -> Mask:

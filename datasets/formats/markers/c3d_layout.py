@@ -10,8 +10,8 @@ shift all coordinates of the frames that follow it.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from itertools import product
 from math import isfinite
 from pathlib import Path
@@ -33,6 +33,7 @@ _HEADER = "its header"
 _AGAIN = "export the recording again as C3D"
 _CUT = "the file is cut short: copy or export it again"
 _PIECE = 2**16  # bytes read at once
+_BLOCK = 1024  # frames
 
 _Claims = dict[float, str]
 """Each number that is claimed, and where."""
@@ -95,6 +96,17 @@ class C3DLayout:
         shape = (self.n_frames, 4 * self.n_points + self.n_samples)
         frames = np.memmap(path, self.dtype, mode=mode, offset=self.start, shape=shape)
         return frames[:, : 4 * self.n_points].reshape(self.n_frames, self.n_points, 4)
+
+    def blocks(self, path: Path, mode: Literal["r", "r+"]) -> Iterator[tuple[slice, NDArray[Any]]]:
+        """Yield some frames after others, with the numbers of their points, as `points` does.
+
+        Each part of the file is in memory as long as it is looked at, however long the file is.
+        """
+        size = (4 * self.n_points + self.n_samples) * self.dtype.itemsize
+        for start in range(0, self.n_frames, _BLOCK):
+            n_frames = min(_BLOCK, self.n_frames - start)
+            part = replace(self, start=self.start + start * size, n_frames=n_frames)
+            yield slice(start, start + n_frames), part.points(path, mode)
 
     def decode(self, stored: NDArray[Any]) -> NDArray[np.float64]:
         """Return coordinates from what is stored of them."""

@@ -32,7 +32,7 @@ def page_for(whole, target, values, path=Path("waves.csv"), file_format=None):
         {},
         {"one": 0},
     )
-    input_file = InputFile(path, file_format or CSVFormat(), request)
+    input_file = InputFile(path, file_format or CSVFormat(), request, request.given)
     return compose_page(input_file, filled, tabulate_gaps(filled), "fill")
 
 
@@ -92,7 +92,7 @@ def test_gaps_of_the_whole_file_are_drawn(waves, hidden):
 
 
 def page_of_choice(filled):
-    input_file = InputFile(Path("waves.csv"), CSVFormat(), filled.request)
+    input_file = InputFile(Path("waves.csv"), CSVFormat(), filled.request, filled.request.given)
     return compose_page(input_file, filled, tabulate_gaps(filled), "fill")
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from mocapbench.benchmark.recording_checks import paths, swaps
+from mocapbench.benchmark.recording_checks import leaps, paths, swaps
 from mocapbench.benchmark.recording_checks.file_check import find_faults
 from mocapbench.datasets import Recording
 
@@ -30,17 +30,37 @@ def swinging(n_frames, n_markers):
 def test_the_excess_of_a_step_is_that_over_the_median_of_the_steps_around_it(n_steps):
     rng = np.random.default_rng(0)
     shape = (n_steps + 1, 5, 3)
-    positions = np.where(rng.random(shape) < 0.3, np.nan, rng.normal(size=shape))
+    positions = rng.normal(size=shape)
+    positions[rng.random(shape[:2]) < 0.3] = np.nan
     steps = np.diff(positions, axis=0)
     columns = pd.DataFrame(steps.reshape(n_steps, 15))
     median = columns.rolling(9, min_periods=1, center=True).median().to_numpy()
     names, none = tuple("ABCDE"), np.zeros(n_steps, dtype=bool)
-    found = paths.MotionPaths(names, positions, np.zeros(5), 120.0, none)
+    found = paths.MotionPaths(names, positions, np.full(5, -1.0), 120.0, none)
     for marker in range(5):  # one by one, as all together
         np.testing.assert_array_equal(
-            found.measure_excess(np.array([marker]))[:, 0],
-            steps[:, marker] - median.reshape(steps.shape)[:, marker],
+            found.measure_excess(marker), steps[:, marker] - median.reshape(steps.shape)[:, marker]
         )
+
+
+@pytest.mark.parametrize("least", [0.3, 1.0, 2.0])
+def test_leaps_are_those_that_all_steps_show_though_few_are_measured(least):
+    rng, n_steps = np.random.default_rng(0), 3000
+    positions = rng.normal(0, 0.1, (n_steps + 1, 4, 3)).cumsum(axis=0)
+    for marker in range(4):
+        positions[rng.integers(0, n_steps, 10), marker] += rng.normal(0, 1.5, (10, 3))
+    positions[rng.random(positions.shape[:2]) < 0.02] = np.nan
+    missing, names = rng.random(n_steps) < 0.001, tuple("ABCD")
+    few, all_steps = (
+        paths.MotionPaths(names, positions, np.full(4, one), 20.0, missing) for one in (least, -1.0)
+    )
+    sizes, usual = all_steps.sizes, all_steps.usual_sizes
+    with np.errstate(invalid="ignore"):
+        expected = sizes > np.maximum(3.0 * usual, least)
+    np.testing.assert_array_equal(leaps.find_leaps(few, 3.0), expected)
+    assert expected.any()
+    assert np.isfinite(few.sizes).sum() < np.isfinite(sizes).sum() or least < 1.0
+    np.testing.assert_array_equal(few.sizes[expected], sizes[expected])
 
 
 def test_the_extent_is_the_same_whichever_frames_are_looked_at_together(monkeypatch):
