@@ -6,7 +6,6 @@ from .catalogue import (
     metric_entry,
     model_entry,
     task_entry,
-    task_summary,
 )
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
@@ -30,6 +29,7 @@ from .inspection.left_out import left_out_lines
 from .inspection.output import explanation_table, state_lines, state_table
 from .inspection.recordings import data_totals, next_data_step
 from .inspection.state import RunState, run_state
+from .listed import list_model, list_task
 from .merging.merge import merge
 from .missing_values import choose_missing_rule
 from .plugins import load_plugin, load_plugins
@@ -148,6 +148,8 @@ __all__ = [
     "last_drawn",
     "left_out_lines",
     "library_entry",
+    "list_model",
+    "list_task",
     "list_unmet_needs",
     "load_plugin",
     "load_plugins",
@@ -178,6 +180,5 @@ __all__ = [
     "state_lines",
     "state_table",
     "task_entry",
-    "task_summary",
     "with_folders",
 ]

@@ -18,6 +18,7 @@ __all__ = [
     "library_entry",
     "metric_entry",
     "model_entry",
+    "model_summary",
     "task_entry",
     "task_summary",
 ]
@@ -53,6 +54,17 @@ def task_entry(name: str) -> Mapping[str, Any]:
         },
         "entrants": [entrant.label for entrant in entrants(task)],
         "recordings": list(dict.fromkeys(recordings)),
+    }
+
+
+def model_summary(name: str) -> Mapping[str, Any]:
+    """Return what a table says of a model."""
+    model = build_unfitted(name)
+    return {
+        "name": name,
+        "summary": summary(type(model)),
+        "abilities": describe_abilities(model.provides),
+        "needs": describe_needs(model.needs),
     }
 
 

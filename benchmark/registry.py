@@ -87,7 +87,16 @@ class Registry(Generic[T]):
 
     def names_of_others(self) -> tuple[str, ...]:
         """Return the names that other packages or files of the user's register, sorted."""
-        return tuple(name for name in self.names() if not self._is_ours(name))
+        return tuple(name for name in self.names() if not self.is_ours(name))
+
+    def is_ours(self, name: str) -> bool:
+        """Return whether mocapbench itself registers ``name``."""
+        point = self._points.get(name)
+        return point is not None and point.value.startswith("mocapbench.")
+
+    def is_loaded(self, name: str) -> bool:
+        """Return whether the object is there: it was asked for, or added."""
+        return name in self._added
 
     def is_installed(self, name: str) -> bool:
         """Return whether an installed package registers ``name``."""
@@ -106,10 +115,6 @@ class Registry(Generic[T]):
         if name not in self._added:
             self._added[name] = self._load(name)
         return self._added[name]
-
-    def _is_ours(self, name: str) -> bool:
-        point = self._points.get(name)
-        return point is not None and point.value.startswith("mocapbench.")
 
     def _load(self, name: str) -> T:
         if name not in self._points:

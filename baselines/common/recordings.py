@@ -66,7 +66,8 @@ def _contents(recording: Recording) -> tuple[Array, Array]:
 
 def stack(recordings: Sequence[Recording]) -> FrameByChannel:
     """Return the values of all recordings, stacked along frames: (ΣN, D)."""
-    return np.concatenate([recording.values for recording in recordings])
+    values = [recording.values for recording in recordings]
+    return np.concatenate(values) if len(values) > 1 else values[0]
 
 
 def visible_moments(recordings: Sequence[Recording]) -> tuple[Array, Array]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -17,8 +17,6 @@ from mocapbench.benchmark.cli.options import Plugins, load_plugins
 
 if TYPE_CHECKING:
     from mocapbench.benchmark.registry import Registry
-
-    Describe = Callable[[str], Mapping[str, Any]]
 
 __all__ = ["app"]
 
@@ -54,8 +52,8 @@ def list_registered(
     """
     load_plugins(plugin)
     registry, describe, describe_fully, columns = _listing(kind)
-    describe = describe_fully if names or as_json else describe
-    entries = [*map(describe, names or registry.names())]
+    describe_entry = getattr(bench, describe_fully if names or as_json else describe)
+    entries = [*map(describe_entry, names or registry.names())]
     if as_json:
         typer.echo(json.dumps(entries, indent=1, default=str))
         return
@@ -68,35 +66,34 @@ def list_registered(
     console.print(f"`mocapbench list {kind} NAME` shows all there is to say of one; --json, of all")
 
 
-def _listing(
-    kind: ListedKind,
-) -> tuple[Registry[Any], Describe, Describe, Mapping[str, str]]:
+def _listing(kind: ListedKind) -> tuple[Registry[Any], str, str, Mapping[str, str]]:
     """Return how one kind is listed.
 
     Returns
     -------
     registry : Registry
-    describe, describe_fully : callable
-        What to say of one beside others, and all there is to say of it, which may take longer.
+    describe, describe_fully : str
+        The functions of `mocapbench.benchmark` that say what there is to say of one beside others,
+        and all of it, which may take longer to import.
     columns : mapping of str to str
         What the table shows besides the name, and under which heads.
     """
     match kind:
         case ListedKind.TASKS:
             columns = {"title": "title", "cases": "cases", "reference": "from"}
-            return bench.TASKS, bench.task_summary, bench.task_entry, columns
+            return bench.TASKS, "list_task", "task_entry", columns
         case ListedKind.MODELS:
             columns = {"summary": "what it is", "abilities": "abilities", "needs": "needs"}
-            return bench.MODELS, bench.model_entry, bench.entrant_entry, columns
+            return bench.MODELS, "list_model", "entrant_entry", columns
         case ListedKind.METRICS:
             columns = {"title": "title", "better": "better", "of": "of"}
-            return bench.METRICS, bench.metric_entry, bench.metric_entry, columns
+            return bench.METRICS, "metric_entry", "metric_entry", columns
         case ListedKind.LIBRARIES:
             columns = {"summary": "what it is", "layout": "reads"}
-            return bench.LIBRARIES, bench.library_entry, bench.library_entry, columns
+            return bench.LIBRARIES, "library_entry", "library_entry", columns
         case ListedKind.FORMATS:
             columns = {"summary": "what it is", "suffixes": "files", "needs": "needs"}
-            return bench.FORMATS, bench.format_entry, bench.format_entry, columns
+            return bench.FORMATS, "format_entry", "format_entry", columns
 
 
 def _table(kind: str, columns: Mapping[str, str], entries: Sequence[Entry]) -> Table:

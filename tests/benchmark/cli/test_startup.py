@@ -88,7 +88,7 @@ def test_completion_in_a_shell_loads_no_numerical_library(words, expected):
     assert loaded == []
 
 
-@pytest.mark.parametrize("kind", ["tasks", "metrics", "libraries", "formats"])
+@pytest.mark.parametrize("kind", ["tasks", "models", "metrics", "libraries", "formats"])
 def test_lists_load_neither_models_nor_tables(kind):
     code, _, loaded = _run("list", kind)
     assert code == 0
@@ -107,7 +107,7 @@ def test_the_status_of_a_run_loads_neither_models_nor_tables(tmp_path):
 @pytest.mark.slow
 def test_what_computes_does_load_them():
     """Else the tests above would prove nothing."""
-    code, printed, loaded = _run("list", "models")
+    code, printed, loaded = _run("list", "models", "cubic-spline")
     assert code == 0
     assert "cubic-spline" in printed
     assert {"numpy", "scipy"} <= set(loaded)
