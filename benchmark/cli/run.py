@@ -95,8 +95,8 @@ def run(
     """
     require_log(log_json, out)
     bench.require_backend(jobs, scheduler, cluster)
-    if not (dry_run or scheduler or cluster):
-        bench.fork_server()  # which loads the libraries while the run is planned
+    if not (dry_run or scheduler or cluster or out.exists()):
+        bench.fork_server()  # of a new run, which loads the libraries while it is planned
     console, plugins = LiteralConsole(), load_plugins(plugin)
     task_files = bench.open_task_files(task_file or (), recordings)
     own = bench.add_tasks(task_files)

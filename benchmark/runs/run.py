@@ -68,8 +68,9 @@ def run(
     missing = [job for job in todo if job.missing]
     finished |= {job.key: _record_missing(job, store, config, log) for job in missing}
     todo = [job for job in todo if not job.missing]
-    for record in _compute_records(todo, store, config, backend, console, log=log, posed=posed):
-        finished[record.key] = record
+    if todo:  # or no worker starts
+        for record in _compute_records(todo, store, config, backend, console, log=log, posed=posed):
+            finished[record.key] = record
     return [finished[job.key] for job in jobs]
 
 

@@ -19,7 +19,7 @@ from collections.abc import Mapping
 from math import pi
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
+import scipy  # which imports its parts where they are used
 
 from mocapbench.datasets.acclaim.motion import FRAME_RATE, Motion
 from mocapbench.datasets.acclaim.skeleton import Skeleton
@@ -167,11 +167,11 @@ def _root_path(
     """Return the root's translation (N, 3) in the skeleton's unit of length."""
     soles = _soles(skeleton, curves)
     # The supporting foot does not slide: the root advances by as much as that foot recedes from it.
-    balls = gaussian_filter1d(soles[:, 1::3, 2], 3, axis=0)
+    balls = scipy.ndimage.gaussian_filter1d(soles[:, 1::3, 2], 3, axis=0)
     pace = -np.gradient(balls, axis=0).min(axis=1)
     flight = FLIGHTS.get(style, 0.0) * np.clip(np.cos(2 * phase + 0.6), 0.0, None)
-    height = flight - gaussian_filter1d(soles[..., 1].min(axis=1), 3)
-    return np.column_stack([0.35 * np.sin(phase), height, np.cumsum(gaussian_filter1d(pace, 8))])
+    height = flight - scipy.ndimage.gaussian_filter1d(soles[..., 1].min(axis=1), 3)
+    return np.column_stack([0.35 * np.sin(phase), height, np.cumsum(scipy.ndimage.gaussian_filter1d(pace, 8))])
 
 
 def _soles(skeleton: Skeleton, curves: Mapping[str, Frames]) -> FrameByJointBy3:
@@ -190,4 +190,4 @@ def _soles(skeleton: Skeleton, curves: Mapping[str, Frames]) -> FrameByJointBy3:
 def _smooth(rng: np.random.Generator, n_frames: int, width: float) -> Frames:
     """Return noise of about unit variance, smoothed by a Gaussian kernel of ``width`` frames."""
     gain = np.sqrt(2 * width * np.sqrt(pi))  # undoes the loss of variance by smoothing
-    return np.asarray(gain * gaussian_filter1d(rng.standard_normal(n_frames), width))
+    return np.asarray(gain * scipy.ndimage.gaussian_filter1d(rng.standard_normal(n_frames), width))
