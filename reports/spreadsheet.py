@@ -11,6 +11,7 @@ import re
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from mocapbench.basics.words import printable
@@ -49,6 +50,9 @@ def unguard_text(text: str) -> str:
 
 def _column(cells: pd.Series[Any]) -> pd.Series[Any]:
     """Return cells that keep their types: a column of integers and gaps gets no decimals."""
+    if isinstance(cells.dtype, pd.CategoricalDtype):  # of few texts and many cells
+        texts = np.array([*map(_cell, cells.cat.categories), None], dtype=object)
+        return pd.Series(texts[cells.cat.codes], cells.index, dtype=object)
     return pd.Series([*map(_cell, cells)], cells.index, dtype=object)
 
 

@@ -17,6 +17,7 @@ from rich.table import Column, Table
 
 from mocapbench import benchmark as bench
 from mocapbench import datasets, reports
+from mocapbench.basics.freed_memory import return_freed_memory
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark import filling, recording_checks
 from mocapbench.benchmark.cli.console import LiteralConsole
@@ -178,7 +179,9 @@ def _fill_file(
     """Fill a file, say why if that is impossible, and return the exit code for it."""
     try:
         with filling.reserve_outputs(outputs) as drafts:
+            return_freed_memory()  # of reading: other processes need some now
             filled = _compare_models(input_file, workers, effort, console)
+            return_freed_memory()
             gaps = filling.tabulate_gaps(filled)
             page = filling.compose_page(input_file, filled, gaps, _quote_command())
             filling.write(input_file, filled, gaps, drafts, reports.render_filled(page))

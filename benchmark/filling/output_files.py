@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from mocapbench.basics.arrays import Index
 from mocapbench.basics.temporaries import sweep
 from mocapbench.basics.whole_files import write_text, write_together
 from mocapbench.benchmark.errors import UsageError
@@ -182,11 +183,17 @@ def tabulate_entries(filled: FilledRecording, spikes: Sequence[Gap]) -> pd.DataF
         {
             "frame": frames,
             "time": given.times[frames],
-            "channel": np.array(given.channels)[channels],
-            "unit": np.array(given.units)[channels],
+            "channel": _repeat_texts(given.channels, channels),
+            "unit": _repeat_texts(given.units, channels),
             "mean": filled.prediction.mean,
             "sd": filled.std,
-            "model": filled.models,
+            "model": pd.Categorical(filled.models),
             "spike": mask_gaps(spikes, given.values.shape)[frames, channels].astype(int),
         }
     )
+
+
+def _repeat_texts(texts: Sequence[str], numbers: Index) -> pd.Categorical:
+    """Return the texts of some numbers, each of which takes memory once."""
+    distinct, places = np.unique(texts, return_inverse=True)
+    return pd.Categorical.from_codes(places[numbers], distinct.tolist())

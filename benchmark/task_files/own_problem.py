@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from mocapbench.baselines import Prediction
+from mocapbench import baselines
 from mocapbench.benchmark.problems.body import Body, JointAngles
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.registry import METRICS
@@ -66,6 +66,6 @@ def own_body(recording: Recording, uri: str, archive: Archive) -> Body | None:
 def defined_metrics(names: Iterable[str], problem: ImputeProblem) -> tuple[str, ...]:
     """Return the metrics that are defined for the true values, had a model found these."""
     (truth,) = problem.truth
-    known = Prediction(np.nan_to_num(truth), np.ones(truth.shape))
+    known = baselines.Prediction(np.nan_to_num(truth), np.ones(truth.shape))
     outcome = problem.outcome((known,))
     return tuple(name for name in names if METRICS.get(name).applies(outcome))

@@ -78,3 +78,10 @@ def test_what_is_written_is_left_as_it_was():
     frame = pd.DataFrame({"label": ["=1"]})
     csv_text(frame)
     assert frame["label"].to_list() == ["=1"]
+
+
+def test_texts_that_take_memory_once_are_written_as_others():
+    texts = ["=1+1", "M1.x", None, "a\x01", "M1.x", "a"]
+    plain = pd.DataFrame({"text": pd.Series(texts, dtype=object), "number": range(6)})
+    once = plain.assign(text=pd.Categorical(texts))
+    assert csv_text(once) == csv_text(plain)

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-HEAVY = ("matplotlib", "numpy", "pandas", "scipy", "seaborn", "sklearn")
+HEAVY = ("matplotlib", "numpy", "pandas", "pebble", "scipy", "seaborn", "sklearn")
 SCRIPT = f"""
 import atexit, json, sys
 sys.argv = ["mocapbench", *sys.argv[1:]]
@@ -102,6 +102,16 @@ def test_the_status_of_a_run_loads_neither_models_nor_tables(tmp_path):
     assert code == 0
     assert "toy-interpolation-1" in printed
     assert {*loaded} <= {"numpy", "scipy"}
+
+
+def test_who_resumes_a_finished_run_starts_no_worker(tmp_path):
+    task = ("--tasks", "toy-interpolation-1", "--models", "trivial", "--profile", "smoke")
+    resume = ("run", *task, "--no-report", "--out", str(tmp_path / "run"))
+    assert _run(*resume)[0] == 0
+    code, printed, loaded = _run(*resume)
+    assert code == 0
+    assert "jobs are in" in printed
+    assert "pebble" not in loaded
 
 
 @pytest.mark.slow
