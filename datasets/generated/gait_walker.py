@@ -171,7 +171,9 @@ def _root_path(
     pace = -np.gradient(balls, axis=0).min(axis=1)
     flight = FLIGHTS.get(style, 0.0) * np.clip(np.cos(2 * phase + 0.6), 0.0, None)
     height = flight - scipy.ndimage.gaussian_filter1d(soles[..., 1].min(axis=1), 3)
-    return np.column_stack([0.35 * np.sin(phase), height, np.cumsum(scipy.ndimage.gaussian_filter1d(pace, 8))])
+    return np.column_stack(
+        [0.35 * np.sin(phase), height, np.cumsum(scipy.ndimage.gaussian_filter1d(pace, 8))]
+    )
 
 
 def _soles(skeleton: Skeleton, curves: Mapping[str, Frames]) -> FrameByJointBy3:
