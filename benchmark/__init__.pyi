@@ -48,6 +48,7 @@ from .results.drawn import last_drawn, stamp
 from .results.error_parts import error_parts
 from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
+from .results.named_results import find_cases, find_labels, find_metrics, find_tasks
 from .results.solved_problems import solved_problem
 from .runs.directory import RunDirectory
 from .runs.execution.base import Backend
@@ -133,6 +134,10 @@ __all__ = [
     "explain",
     "explanation_table",
     "fetch_command",
+    "find_cases",
+    "find_labels",
+    "find_metrics",
+    "find_tasks",
     "forecast_text",
     "fork_server",
     "format_entry",

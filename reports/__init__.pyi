@@ -6,12 +6,14 @@ from .bundle.model_info import ModelInfo
 from .bundle.origin import Origin
 from .bundle.pictures import Axes, Curve, HeatMaps, Illustration, Motions, Picture, Space
 from .bundle.task_page import Figure, TaskPage
+from .export.papers import latex_text, markdown_text, paper_tables
 from .filling.curves import FilledCurve
 from .filling.page import FilledPage, render_filled
 from .page.report import render
 from .run_comparison.render import render_changes
 from .run_comparison.values import Change, ChangeVerdict, RunChanges, ScoreChange
 from .spreadsheet import csv_text
+from .tables.base import Table
 
 __all__ = [
     "Axes",
@@ -34,9 +36,13 @@ __all__ = [
     "RunChanges",
     "ScoreChange",
     "Space",
+    "Table",
     "TaskLayout",
     "TaskPage",
     "csv_text",
+    "latex_text",
+    "markdown_text",
+    "paper_tables",
     "render",
     "render_changes",
     "render_filled",

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from mocapbench.basics.words import printable
 
-__all__ = ["escape", "table_lines"]
+__all__ = ["escape", "markup_lines", "table_lines"]
 
 _MARKUP = str.maketrans(
     {
@@ -32,8 +32,12 @@ def escape(text: str) -> str:
 
 def table_lines(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
     """Return the lines of a table whose cells show the texts they are given."""
-    head = [_line(map(escape, columns)), _line(["---"] * len(columns))]
-    return [*head, *(_line(map(escape, row)) for row in rows)]
+    return markup_lines([*map(escape, columns)], [[*map(escape, row)] for row in rows])
+
+
+def markup_lines(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    """Return the lines of a table whose cells are Markdown already."""
+    return [_line(columns), _line(["---"] * len(columns)), *map(_line, rows)]
 
 
 def _line(cells: Iterable[str]) -> str:

@@ -1,4 +1,4 @@
-"""``mocapbench export``: everything in a run directory as tables."""
+"""``mocapbench export``: everything in a run directory as tables, or tables for a paper."""
 
 from __future__ import annotations
 
@@ -13,28 +13,77 @@ from mocapbench import reports
 from mocapbench.basics.whole_files import atomic_write, write_text, write_together
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
-from mocapbench.benchmark.cli.options import DEFAULT_OUT, Out, show_left_out
-from mocapbench.benchmark.errors import ExitCode
+from mocapbench.benchmark.cli.options import (
+    DEFAULT_OUT,
+    Names,
+    Out,
+    Plugins,
+    load_plugins,
+    load_records,
+    load_tasks,
+    show_left_out,
+    split,
+)
+from mocapbench.benchmark.errors import ExitCode, UnknownNameError, UsageError
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     import pandas as pd
+
+    from mocapbench.benchmark import RunDirectory
 
 __all__ = ["app"]
 
 app = typer.Typer(add_completion=False)
+
+PAPER_FILES = {
+    "latex": "tables.tex",
+    "markdown": "tables.md",
+    "csv": "tables.csv",
+    "parquet": "tables.parquet",
+}
+"""The formats of tables for papers, and their files."""
+PARQUET_ADVICE = "which need pyarrow: `pip install 'mocapbench[parquet]'`"
 
 
 @app.command()
 def export(
     out: Out = DEFAULT_OUT,
     to: Annotated[Path | None, typer.Option(help="Folder of the files.")] = None,
+    formats: Annotated[
+        list[str] | None,
+        typer.Option("--format", help=f"Of tables for papers: {', '.join(PAPER_FILES)}."),
+    ] = None,
+    tasks: Names = None,
+    cases: Names = None,
+    models: Names = None,
+    metrics: Names = None,
+    plugin: Plugins = None,
 ) -> None:
-    """Write the scores and jobs of the last run as tables.
+    """Write the scores and jobs of the last run as tables; with --format, tables for papers.
 
-    As CSV, and as Parquet where pyarrow is installed.
+    Scores and jobs are CSV, and Parquet where pyarrow is installed. Tables for papers show means
+    with intervals and tests: one for each task, of what is named, in that order.
     """
-    store, console = bench.RunDirectory(out), LiteralConsole()
-    folder, with_parquet = to or out, find_spec("pyarrow") is not None
+    load_plugins(plugin)
+    store, console, folder = bench.RunDirectory(out), LiteralConsole(), to or out
+    if formats:
+        chosen = {"tasks": tasks, "models": models, "metrics": metrics}
+        names = {option: split(given) for option, given in chosen.items()}
+        _export_means(store, _paper_paths(folder, split(formats)), names, cases or (), console)
+    elif tasks or cases or models or metrics:
+        raise UsageError(
+            "--tasks, --cases, --models and --metrics choose what tables for papers show; add "
+            f"--format with any of {', '.join(PAPER_FILES)}"
+        )
+    else:
+        _export_all(store, folder, console)
+
+
+def _export_all(store: RunDirectory, folder: Path, console: LiteralConsole) -> None:
+    """Write all scores and jobs."""
+    with_parquet = find_spec("pyarrow") is not None
     folder.mkdir(parents=True, exist_ok=True)
     records = store.planned()
     tables = {"scores": bench.score_table(records), "jobs": bench.job_table(records)}
@@ -49,14 +98,88 @@ def export(
             f"{format_count(len(table), 'row')}: {folder / name}{suffixes}", soft_wrap=True
         )
     if not with_parquet:
-        advice = "no Parquet files, which need pyarrow: `pip install 'mocapbench[parquet]'`"
-        console.print(advice)
+        console.print(f"no Parquet files, {PARQUET_ADVICE}")
     show_left_out(store.damaged, console)
     if earlier := len(store.record_keys() - {*store.load_plan()["keys"]}):
         jobs = format_count(earlier, "job")
-        console.print(f"not exported: {jobs} of earlier runs in {out}", soft_wrap=True)
+        console.print(f"not exported: {jobs} of earlier runs in {store.path}", soft_wrap=True)
     if not records:
         raise typer.Exit(ExitCode.NOTHING_RAN)
+
+
+def _paper_paths(folder: Path, formats: Sequence[str]) -> dict[str, Path]:
+    """Return the file of each format, none of which may be there.
+
+    Raises
+    ------
+    UsageError
+        If one is, or a format is unknown or needs what is not installed.
+    """
+    for name in formats:
+        if name not in PAPER_FILES:
+            raise UnknownNameError("format", name, [*PAPER_FILES])
+    if "parquet" in formats and find_spec("pyarrow") is None:
+        raise UsageError(f"--format parquet writes Parquet files, {PARQUET_ADVICE}")
+    paths = {name: folder / PAPER_FILES[name] for name in formats}
+    for path in filter(Path.exists, paths.values()):
+        raise UsageError(
+            f"expected no file called {path}, which would be overwritten; name another folder "
+            "with --to, or delete it"
+        )
+    return paths
+
+
+def _export_means(
+    store: RunDirectory,
+    paths: Mapping[str, Path],
+    names: Mapping[str, Sequence[str]],
+    cases: Sequence[str],
+    console: LiteralConsole,
+) -> None:
+    """Write tables for papers of what is named, and say which models have no row there."""
+    load_tasks(store)
+    whole = bench.bundle(load_records(store), store.load_plan()["provenance"])
+    labels = bench.find_labels(whole, names["models"])
+    means, tables = reports.paper_tables(
+        whole,
+        bench.find_tasks(whole, names["tasks"]),
+        bench.find_cases(whole, cases),
+        labels,
+        bench.find_metrics(whole, names["metrics"]),
+    )
+    if means.empty:
+        raise UsageError(
+            "no score of what is chosen: the tasks, cases, models and metrics that are named do "
+            "not meet; leave one of these options out"
+        )
+    _write_means(means, tables, whole, paths)
+    for path in paths.values():
+        console.print(f"{format_count(len(tables), 'table')}: {path}", soft_wrap=True)
+    if lost := [label for label in labels if label not in {*means["label"]}]:
+        console.print(f"without a score there, so not shown: {', '.join(lost)}", soft_wrap=True)
+    show_left_out(store.damaged, console)
+
+
+def _write_means(
+    means: pd.DataFrame,
+    tables: Sequence[reports.Table],
+    whole: reports.Bundle,
+    paths: Mapping[str, Path],
+) -> None:
+    """Write the files of all formats, or none."""
+    folder = next(iter(paths.values())).parent
+    folder.mkdir(parents=True, exist_ok=True)
+    with write_together(folder, "tables") as drafts:
+        for name, path in paths.items():
+            match name:
+                case "latex":
+                    write_text(drafts / path.name, reports.latex_text(tables, whole))
+                case "markdown":
+                    write_text(drafts / path.name, reports.markdown_text(tables))
+                case "csv":
+                    _write_csv(means, drafts / path.name)
+                case _:
+                    _write_parquet(means, drafts / path.name)
 
 
 def _write_csv(table: pd.DataFrame, path: Path) -> None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from mocapbench.basics.arrays import Array
+from mocapbench.metrics.statistics import ALPHA, unit_means
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.units import unit_kind, unit_names, unit_weights
 from mocapbench.reports.bundle.layout import CaseLayout
@@ -20,7 +21,7 @@ __all__ = ["Cells", "cells"]
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """The scores of the ranked labels in cells, where a cell is one fold of one case.
+    """The scores of some labels in cells, where a cell is one fold of one case.
 
     Parameters
     ----------
@@ -87,6 +88,13 @@ class Cells:
         """Return the mean loss of a label over its cases, each weighing the same."""
         return self._mean_over_cases(self.losses, row)
 
+    def half_width(self, row: int) -> float:
+        """Return half the 95 % interval of `mean` by Student's t over units; NaN of one unit."""
+        kept = self.scored[row]
+        shares = self.weights(kept).sum(axis=1)
+        values = self.by_unit(self.values[[row]], kept)
+        return float(unit_means(values, shares).half_widths(ALPHA)[0])
+
     def _mean_over_cases(self, array: Array, row: int) -> float:
         kept = self.scored[row]
         return float(self.weights(kept).sum(axis=0) @ array[row, kept])
@@ -105,22 +113,37 @@ class Cells:
         return len({self.cases[i] for i in np.flatnonzero(self.scored[row])})
 
 
-def cells(results: TaskResults, metric: str, cases: Sequence[CaseLayout] | None = None) -> Cells:
-    """Return the cells of ``cases``, by default of the representative ones, that have any score."""
+def cells(
+    results: TaskResults,
+    metric: str,
+    cases: Sequence[CaseLayout] | None = None,
+    labels: Sequence[str] | None = None,
+) -> Cells:
+    """Return the cells that have any score of some cases and labels.
+
+    Parameters
+    ----------
+    results : TaskResults
+    metric : str
+    cases : sequence of CaseLayout or None
+        By default the representative ones.
+    labels : sequence of str or None
+        By default the ranked ones.
+    """
     known = results.representative_cases(metric) if cases is None else cases
     scored = set(results.folds.index.get_level_values("case"))
     shown = [case for case in known if case.name in scored]
     folds, independent = results.fold_numbers, results.layout.independent_folds
-    ranked = results.layout.ranked
-    values = results.values(metric, ranked, [case.name for case in shown])
+    wanted = tuple(results.layout.ranked if labels is None else labels)
+    values = results.values(metric, wanted, [case.name for case in shown])
     losses = results.metrics[metric].linear_losses(values)
     units = [unit for case in shown for unit in unit_names(case, folds, independent=independent)]
-    shape = (len(ranked), len(units))
+    shape = (len(wanted), len(units))
     of_cells = tuple(case.name for case in shown for _ in folds)
     kinds = {unit_kind(case, independent=independent).value for case in shown}
     kind = kinds.pop() if len(kinds) == 1 else "unit"
     values, losses = values.reshape(shape), losses.reshape(shape)
-    return _without_empty(Cells(ranked, values, losses, of_cells, tuple(units), kind))
+    return _without_empty(Cells(wanted, values, losses, of_cells, tuple(units), kind))
 
 
 def _without_empty(whole: Cells) -> Cells:
