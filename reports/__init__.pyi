@@ -6,7 +6,7 @@ from .bundle.model_info import ModelInfo
 from .bundle.origin import Origin
 from .bundle.pictures import Axes, Curve, HeatMaps, Illustration, Motions, Picture, Space
 from .bundle.task_page import Figure, TaskPage
-from .export.papers import latex_text, markdown_text, paper_tables
+from .export.typesetting import latex_text, markdown_text, paper_tables
 from .filling.curves import FilledCurve
 from .filling.page import FilledPage, render_filled
 from .page.report import render

@@ -91,7 +91,7 @@ class Cells:
     def half_width(self, row: int) -> float:
         """Return half the 95 % interval of `mean` by Student's t over units; NaN of one unit."""
         kept = self.scored[row]
-        shares = self.weights(kept).sum(axis=1)
+        shares: Array = self.weights(kept).sum(axis=1)
         values = self.by_unit(self.values[[row]], kept)
         return float(unit_means(values, shares).half_widths(ALPHA)[0])
 

@@ -86,22 +86,21 @@ def _name_metric(metric: MetricInfo) -> str:
 
 def _count_units(column: pd.DataFrame) -> str:
     """Return over how many units a column is, of its label with the most."""
-    most = column.loc[column["n"].idxmax()]
-    return format_count(int(most["n"]), str(most["n_of"]))
+    return format_count(int(column["n"].max()), str(column["n_of"].iloc[0]))
 
 
 def _column_cells(column: pd.DataFrame, places: int) -> dict[str, Cell]:
     """Return the cell of each label; the best of several is bold."""
     compared = int((column["test"] != REFERENCE).sum()) > 1
     return {
-        row.label: Cell(
-            number(row.mean, places),
-            spread="" if math.isnan(row.half_width) else number(row.half_width, places),
-            mark=_MARKS.get(row.test, ""),
-            kind="best" if compared and row.test == Place.BEST.value else "",
-            value=row.mean,
+        row["label"]: Cell(
+            number(row["mean"], places),
+            spread="" if math.isnan(row["half_width"]) else number(row["half_width"], places),
+            mark=_MARKS.get(row["test"], ""),
+            kind="best" if compared and row["test"] == Place.BEST.value else "",
+            value=row["mean"],
         )
-        for row in column.itertuples(index=False)
+        for row in column.to_dict("records")
     }
 
 
