@@ -15,6 +15,7 @@ from typing import Any, Protocol, Self
 import joblib
 from pebble import ProcessExpired
 
+from mocapbench.basics.processes import kill_children
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.registry import MODELS, find_calibration
@@ -22,7 +23,6 @@ from mocapbench.benchmark.runs.execution.child import (
     LONGEST,
     ProcessDiedError,
     call_in_child,
-    kill_children,
 )
 from mocapbench.benchmark.runs.execution.fork_server import fork_server_without_script
 from mocapbench.benchmark.runs.execution.scratch import scratch_folder

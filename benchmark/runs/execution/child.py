@@ -6,32 +6,22 @@ the call changes in its process ends with it, and its peak memory is its own.
 
 from __future__ import annotations
 
-import ctypes
 import multiprocessing
 import os
 import pickle
 import signal
 import sys
 import traceback
-from collections.abc import Callable, Iterator
-from contextlib import suppress
+from collections.abc import Callable
 from multiprocessing.connection import Connection, wait
-from pathlib import Path
 from typing import Any, NoReturn
 
-__all__ = [
-    "LONGEST",
-    "ProcessDiedError",
-    "adopt_orphans",
-    "call_in_child",
-    "die_with_parent",
-    "kill_children",
-]
+from mocapbench.basics.processes import die_with_parent, set_deadline
 
-_LIBC = ctypes.CDLL(None)  # loaded before a fork: in the child it would cost pages of memory
+__all__ = ["LONGEST", "ProcessDiedError", "call_in_child"]
+
 LONGEST = 2e6
 """Seconds that the system can be asked to wait at once, which are 23 days."""
-_PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36  # of prctl(2)
 
 
 class ProcessDiedError(Exception):
@@ -76,7 +66,7 @@ def call_in_child(function: Callable[..., Any], *arguments: Any, timeout: float)
     # Not by `multiprocessing.Process`, which changes memory that would have to be copied.
     child = os.fork()
     if not child:
-        _report(sender, function, arguments)
+        _report(sender, function, arguments, timeout)
     sender.close()
     try:
         result = _receive_report(receiver, child, min(timeout, LONGEST))
@@ -94,11 +84,12 @@ def _flush() -> None:
 
 
 def _report(
-    sender: Connection, function: Callable[..., Any], arguments: tuple[Any, ...]
+    sender: Connection, function: Callable[..., Any], arguments: tuple[Any, ...], timeout: float
 ) -> NoReturn:
     exit_code = 1
     try:
         die_with_parent()
+        set_deadline(timeout)
         result = pickle.dumps(function(*arguments), protocol=pickle.HIGHEST_PROTOCOL)
         _flush()
         sender.send_bytes(result)
@@ -130,27 +121,3 @@ def _receive_report(receiver: Connection, child: int, timeout: float) -> bytes:
     if not ready:
         raise TimeoutError
     return b""
-
-
-def adopt_orphans() -> None:
-    """Become the parent of what descendants of this process leave behind, so that it is found."""
-    _LIBC.prctl(_PR_SET_CHILD_SUBREAPER, 1)
-
-
-def kill_children() -> None:
-    """Kill every child of this process, and those that it then adopts."""
-    while children := [*_children()]:
-        for child in children:
-            os.kill(child, signal.SIGKILL)
-            os.waitpid(child, 0)
-
-
-def _children() -> Iterator[int]:
-    for thread in Path("/proc/self/task").iterdir():
-        with suppress(FileNotFoundError):  # a kernel that does not list children
-            yield from map(int, (thread / "children").read_text().split())
-
-
-def die_with_parent() -> None:
-    """Have the system kill this process when the one that started it ends, however that ends."""
-    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)

@@ -16,16 +16,12 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
+from mocapbench.basics.processes import adopt_orphans, die_with_parent, kill_children
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.evaluate import evaluate
-from mocapbench.benchmark.runs.execution.child import (
-    ProcessDiedError,
-    adopt_orphans,
-    die_with_parent,
-    kill_children,
-)
+from mocapbench.benchmark.runs.execution.child import ProcessDiedError
 from mocapbench.benchmark.runs.execution.fork_server import forget_safe_path
 from mocapbench.benchmark.runs.execution.large_pages import collapse_memory
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive

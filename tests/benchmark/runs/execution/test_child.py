@@ -141,7 +141,8 @@ def test_what_waits_to_be_printed_is_printed_once():
 
 LEFT_BEHIND = """
 import os, pathlib, subprocess, sys
-from mocapbench.benchmark.runs.execution.child import adopt_orphans, call_in_child, kill_children
+from mocapbench.basics.processes import adopt_orphans, kill_children
+from mocapbench.benchmark.runs.execution.child import call_in_child
 def work():
     shell = f"sleep 600 & echo $! >> {sys.argv[1]}; echo $$ >> {sys.argv[1]}; wait"
     subprocess.Popen(["sh", "-c", shell])
