@@ -189,6 +189,10 @@ class Model(BaseEstimator, ABC):  # type: ignore[misc]
     needs: ClassVar[frozenset[str]] = frozenset()
     """The names of what it needs besides recordings; ``fit`` receives some of it by keyword."""
 
+    files_digest: ClassVar[str] = ""
+    """A digest of what the model computes with besides Python code and recordings, such as programs
+    and weights. If it changes, predictions are computed again."""
+
     def __init_subclass__(cls, **keywords: object) -> None:
         """Unite what the bases provide and need, and limit BLAS to one thread.
 

@@ -1,4 +1,4 @@
-"""A user's own Python file of models, tasks, metrics, libraries and formats, for one run."""
+"""A user's own file for one run: Python with plug-ins of any kind, or the TOML of a command."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from typing import Any
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.plugin_kinds import PLUGIN_KINDS, check_definition
+from mocapbench.benchmark.programs.declaration import define_model, is_declaration
 from mocapbench.benchmark.registry import Registry
 
 __all__ = ["load_plugin", "load_plugins"]
@@ -22,7 +23,7 @@ Definitions = Mapping[str, Mapping[str, Any]]
 
 
 def load_plugins(paths: Iterable[Path]) -> None:
-    """Register what several Python files define.
+    """Register what several files define.
 
     Parameters
     ----------
@@ -52,12 +53,12 @@ def _require_only_one(first: Path, path: Path, attribute: str, name: str) -> Non
 
 
 def load_plugin(path: Path) -> tuple[str, ...]:
-    """Register what a Python file defines.
+    """Register what a file defines.
 
     Parameters
     ----------
     path : Path
-        A file that defines one or more of ``MODELS = {"name": ModelClass}``,
+        The TOML file of a model that is a command, or a Python file that defines one or more of ``MODELS = {"name": ModelClass}``,
         ``TASKS = {"name": task}``, ``METRICS = {"name": metric}``,
         ``LIBRARIES = {"name": LibraryClass}`` and ``FORMATS = {"name": FormatClass}``.
 
@@ -78,17 +79,8 @@ def load_plugin(path: Path) -> tuple[str, ...]:
 
 def _definitions(path: Path) -> Definitions:
     """Return what a file defines, once it is known to be usable."""
-    module = _execute(path)
-    defined = {
-        name: value
-        for name, value in vars(module).items()
-        if name in PLUGIN_KINDS and not isinstance(value, Registry)  # ours, which it may import
-    }
-    if not defined:
-        raise UsageError(
-            f"{path}: expected one or more of {', '.join(PLUGIN_KINDS)}, each a mapping such as "
-            'MODELS = {"name": ModelClass}, got none'
-        )
+    _require_file(path)
+    defined = {"MODELS": dict([define_model(path)])} if is_declaration(path) else _execute(path)
     for attribute, values in defined.items():
         check_definition(path, attribute, values)
     return defined
@@ -100,13 +92,32 @@ def _register(defined: Definitions) -> None:
             PLUGIN_KINDS[attribute].registry.add(name, value)
 
 
-def _execute(path: Path) -> ModuleType:
-    """Run a Python file as a module whose name follows from its content."""
+def _require_file(path: Path) -> None:
     if not path.is_file():
         what = "is a folder" if path.is_dir() else "does not exist"
         raise UsageError(
-            f"--plugin: expected a Python file, got {str(path)!r}, which {what}; check the path"
+            f"--plugin: expected a Python file, or the TOML file of a command, got {str(path)!r}, "
+            f"which {what}; check the path"
         )
+
+
+def _execute(path: Path) -> Definitions:
+    """Return what a Python file defines under the names of kinds."""
+    defined = {
+        name: value
+        for name, value in vars(_load_module(path)).items()
+        if name in PLUGIN_KINDS and not isinstance(value, Registry)  # ours, which it may import
+    }
+    if not defined:
+        raise UsageError(
+            f"{path}: expected one or more of {', '.join(PLUGIN_KINDS)}, each a mapping such as "
+            'MODELS = {"name": ModelClass}, got none'
+        )
+    return defined
+
+
+def _load_module(path: Path) -> ModuleType:
+    """Run a Python file as a module whose name follows from its content."""
     file, search_path = path.resolve(), [*sys.path]
     name = f"mocapbench_plugin_{hashlib.sha256(file.read_bytes()).hexdigest()[:16]}"
     module = ModuleType(name)

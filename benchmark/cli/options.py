@@ -61,7 +61,8 @@ Plugins = Annotated[
     typer.Option(
         "--plugin",
         "--model-file",
-        help="A Python file that defines any of MODELS, TASKS, METRICS, LIBRARIES and FORMATS.",
+        help="A Python file that defines any of MODELS, TASKS, METRICS, LIBRARIES and FORMATS, or "
+        "the TOML file of a model that is a command.",
     ),
 ]
 

@@ -97,9 +97,12 @@ def attempt_fill(
     threadpool_limits(limits=1)
     try:
         return fill_problem(partial(build_model, model, {}, seed, calibration), problem, method)
-    except MemoryError:
-        needed = f"needed more than {memory / 2**30:.1f} GiB of memory"
+    except MemoryError as error:
+        said = f" ({error})" if str(error) else ""
+        needed = f"needed more than {memory / 2**30:.1f} GiB of memory{said}"
         return FillAttempt(None, needed, stopped=True)
+    except TimeoutError as error:  # of a program that the model has run
+        return FillAttempt(None, str(error), stopped=True)
     except BaseException as error:  # a model that calls sys.exit has failed like any other
         return FillAttempt(None, reason(error) + _locate_error(error, model))
 

@@ -107,11 +107,18 @@ class Job:
     def record_failure(self, error: BaseException, memory: int) -> Record:
         """Return a record of this job, which may take ``memory`` bytes and raised ``error``."""
         text = traceback_of(error)
-        if not isinstance(error, MemoryError):
-            return self.record(Status.FAILED, reason(error), traceback=text)
-        limit = memory / 2**30
-        message = f"the job needed more than its {limit:.1f} GiB; raise --memory or lower --jobs"
-        return self.record(Status.OUT_OF_MEMORY, message, traceback=text)
+        match error:
+            case MemoryError():
+                said = f" ({error})" if str(error) else ""
+                message = (
+                    f"the job needed more than its {memory / 2**30:.1f} GiB; raise --memory or "
+                    f"lower --jobs{said}"
+                )
+                return self.record(Status.OUT_OF_MEMORY, message, traceback=text)
+            case TimeoutError():  # of a program that the model has run
+                message = f"{error}; raise --timeout or lower the budget"
+                return self.record(Status.TIMEOUT, message, traceback=text)
+        return self.record(Status.FAILED, reason(error), traceback=text)
 
     def timed_out(self, seconds: float) -> Record:
         """Return a record of this job that was killed after so many seconds."""

@@ -14,7 +14,7 @@ import importlib.metadata
 import json
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache, partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mocapbench.benchmark.runs.descriptions import describe_value
 from mocapbench.benchmark.runs.fitting import solve
@@ -22,6 +22,9 @@ from mocapbench.benchmark.runs.source_code.digest import source_digest
 from mocapbench.benchmark.tasks.base import Case
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.metrics import Metric
+
+if TYPE_CHECKING:
+    from mocapbench.baselines import Model
 
 __all__ = ["fit_contents", "key_of", "metric_contents", "score_contents", "training_contents"]
 
@@ -39,7 +42,7 @@ def fit_contents(
     case: Case,
     seeds: Seeds,
     *,
-    model: type,
+    model: type[Model],
     parameters: Mapping[str, Any],
     digests: Mapping[str, str],
     calibration: Callable[[Any], Any] | None = None,
@@ -65,7 +68,7 @@ def fit_contents(
         "training": case.training_in(seeds.fold),
         "entrant": [model.__qualname__, dict(parameters)],
         "source": [
-            source_digest(model.__module__, _FITTING),
+            source_digest(model.__module__, _FITTING) + model.files_digest,
             source_digest(solve.__name__, _FITTING),
             source_digest(calibration.__module__, _FITTING) if calibration else "",
         ],

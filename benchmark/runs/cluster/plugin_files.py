@@ -1,4 +1,4 @@
-"""The user's own Python files, as they travel to workers that do not share a disk.
+"""The user's own files, as they travel to workers that do not share a disk.
 
 Files of one folder stay together, and keep their names, so that they find each other.
 """
@@ -9,11 +9,15 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from mocapbench.benchmark.programs.declaration import is_declaration, list_files
+
 __all__ = ["read_plugin_files", "write_plugin_files"]
 
 
 def read_plugin_files(plugins: Sequence[Path]) -> dict[str, bytes]:
-    """Return plug-ins that this process has loaded, and the helpers beside them that they import.
+    """Return plug-ins that this process has loaded, with the files that they need.
+
+    Those are the helpers beside them that Python files import, and the files of commands.
 
     Parameters
     ----------
@@ -25,9 +29,12 @@ def read_plugin_files(plugins: Sequence[Path]) -> dict[str, bytes]:
     dict of str to bytes
         By paths below a folder of the worker.
     """
-    helpers = (path for parent in _list_parents(plugins) for path in _helpers(parent))
-    every = dict.fromkeys([*plugins, *helpers])
-    return {_shorten_path(path, plugins): path.read_bytes() for path in every}
+    files = dict.fromkeys((path.parent, each) for path in plugins for each in _list_files(path))
+    parents = _list_parents(plugins)
+    return {
+        f"{parents.index(parent)}/{path.relative_to(parent).as_posix()}": path.read_bytes()
+        for parent, path in files
+    }
 
 
 def write_plugin_files(
@@ -46,16 +53,18 @@ def write_plugin_files(
     for name, content in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(content)
-    return tuple(folder / _shorten_path(path, plugins) for path in plugins)
+    parents = _list_parents(plugins)
+    return tuple(folder / str(parents.index(path.parent)) / path.name for path in plugins)
 
 
 def _list_parents(plugins: Sequence[Path]) -> list[Path]:
     return list(dict.fromkeys(path.parent for path in plugins))
 
 
-def _shorten_path(path: Path, plugins: Sequence[Path]) -> str:
-    """Return the path of a file beside a plug-in, with the number of its folder."""
-    return f"{_list_parents(plugins).index(path.parent)}/{path.name}"
+def _list_files(plugin: Path) -> Iterator[Path]:
+    """Yield a plug-in and the files that it needs."""
+    yield plugin
+    yield from list_files(plugin) if is_declaration(plugin) else _helpers(plugin.parent)
 
 
 def _helpers(folder: Path) -> Iterator[Path]:

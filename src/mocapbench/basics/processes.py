@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import math
 import os
-import resource
 import signal
 import time
 from collections.abc import Iterator
@@ -49,15 +48,13 @@ def kill_children() -> None:
 
 
 def set_deadline(seconds: float) -> None:
-    """Let this process, and those that it starts, know that they are killed in so many seconds."""
+    """Have this process know that it is killed in so many seconds."""
     os.environ[_DEADLINE] = repr(time.monotonic() + seconds)
 
 
 def count_seconds_left() -> float:
-    """Return the seconds that a program may take which starts now; infinity without a limit."""
-    work, _ = resource.getrlimit(resource.RLIMIT_CPU)
-    deadline = float(os.environ.get(_DEADLINE, math.inf))
-    return min(deadline - time.monotonic(), math.inf if work == resource.RLIM_INFINITY else work)
+    """Return in how many seconds this process is killed; infinity if that is not known."""
+    return float(os.environ.get(_DEADLINE, math.inf)) - time.monotonic()
 
 
 def list_children(process: int | str = "self") -> Iterator[int]:

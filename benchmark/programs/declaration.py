@@ -1,0 +1,153 @@
+"""The TOML file of a model that is a command."""
+
+from __future__ import annotations
+
+import hashlib
+import shlex
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from mocapbench.baselines import ABILITIES, IMPLIED, FrameImputer, Interpolator
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.programs.exchange import EXCHANGES
+from mocapbench.benchmark.programs.model import CommandModel
+from mocapbench.benchmark.task_files.document import Document
+from mocapbench.benchmark.task_files.values import is_count, is_path, is_text, read_names
+
+__all__ = ["define_model", "is_declaration", "list_files"]
+
+_ABILITIES = ("fills frames", "fills entries", "fills new recordings", "interpolates")
+"""What a command may provide."""
+_NEEDS = ("coordinates",)
+"""What a command may need: nothing that `fit` receives besides recordings."""
+_KEYS = (
+    *("name", "summary", "command", "files", "format", "provides", "needs", "learns_in_fit"),
+    *("max_frames", "environment", "licence", "source"),
+)
+
+
+def is_declaration(path: Path) -> bool:
+    """Return whether a plug-in is the TOML file of a command."""
+    return path.suffix == ".toml"
+
+
+def define_model(path: Path) -> tuple[str, type[CommandModel]]:
+    """Return the name of the model that a TOML file declares, and its class.
+
+    Raises
+    ------
+    UsageError
+        If the file is not as expected; the message has line and key.
+    """
+    document = _read_document(path)
+    document.require_known("", _KEYS)
+    name: str = document.read("name", "", is_text, "a name", '"my-model"')
+    command = _read_texts(document, "command", '["python3", "my_model.py"]')
+    if not (name and command):
+        missing = "command" if name else "name"
+        raise document.error(missing, "a value", "none", 'write name = "…" and command = ["…"]')
+    content = {
+        "command": command,
+        "folder": path.resolve().parent,
+        "exchange": document.read(
+            "format", "npz", EXCHANGES.__contains__, f"one of {', '.join(EXCHANGES)}", '"npz"'
+        ),
+        "files_digest": _digest_files([path, *list_files(path)]),
+        "__doc__": _describe(document, command),
+        **_read_abilities(document),
+    }
+    return name, _register_class(name, content)
+
+
+def list_files(path: Path) -> list[Path]:
+    """Return the files of a command that its TOML file lists, which stand beside or below it.
+
+    Raises
+    ------
+    UsageError
+        If one is not there, or stands elsewhere.
+    """
+    document = _read_document(path)
+    names = _read_texts(document, "files", '["my_model.py"]')
+    files = [path.resolve().parent / name for name in names]
+    for name, file in zip(names, files, strict=True):
+        if not (is_path(name) and file.is_file()):
+            raise document.error(
+                "files", "files beside the TOML file, or below", repr(name), "correct the path"
+            )
+    return files
+
+
+def _read_document(path: Path) -> Document:
+    try:
+        return Document(str(path), path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(
+            f"--plugin: expected a TOML file of a command, got {str(path)!r}: {error}; check it"
+        ) from error
+
+
+def _read_texts(document: Document, key: str, example: str) -> tuple[str, ...]:
+    texts: list[str] = document.read(
+        key,
+        [],
+        lambda value: isinstance(value, list) and bool(value) and all(map(is_text, value)),
+        "a list of texts",
+        example,
+    )
+    return tuple(texts)
+
+
+def _read_abilities(document: Document) -> dict[str, Any]:
+    """Return what the model can do and what it needs, as attributes of its class."""
+    provides = _read_subset(document, "provides", _ABILITIES) or {"fills entries"}
+    while more := {IMPLIED[name] for name in provides & IMPLIED.keys()} - provides:
+        provides |= more
+    return {
+        "provides": frozenset(provides),
+        "needs": frozenset(_read_subset(document, "needs", _NEEDS)),
+        "family": (Interpolator if "interpolates" in provides else FrameImputer).family,
+        "learns_in_fit": document.read(
+            "learns_in_fit", False, lambda value: type(value) is bool, "true or false", "true"
+        ),
+        "max_frames": document.read("max_frames", None, is_count, "a number of frames", "2000"),
+    }
+
+
+def _read_subset(document: Document, key: str, known: tuple[str, ...]) -> set[str]:
+    names = set(read_names(document, key, f'["{known[0]}"]'))
+    for name in sorted(names - {*known}):
+        which = "only of models in Python" if name in ABILITIES else "unknown"
+        advice = f"remove it: it is {which}"
+        raise document.error(key, f"some of {', '.join(known)}", repr(name), advice)
+    return names
+
+
+def _describe(document: Document, command: tuple[str, ...]) -> str:
+    """Return the docstring of the class: a sentence with what it runs on, and a paper."""
+    summary, environment, licence, source = (
+        document.read(key, "", is_text, "a text", '"…"')
+        for key in ("summary", "environment", "licence", "source")
+    )
+    facts = "; ".join(filter(None, [environment, licence]))
+    sentence = (summary or f"The command {shlex.join(command)}").rstrip(".")
+    paper = f"\n\nReferences\n----------\n{source}" if source else ""
+    return f"{sentence}{f' ({facts})' if facts else ''}.{paper}"
+
+
+def _digest_files(paths: list[Path]) -> str:
+    digest = hashlib.sha256()
+    for path in paths:
+        digest.update(hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()
+
+
+def _register_class(name: str, content: Mapping[str, Any]) -> type[CommandModel]:
+    """Return the class of a command, which pickle finds in the module of its base."""
+    kind = type(name, (CommandModel,), dict(content))
+    kind.__module__ = CommandModel.__module__
+    kind.__qualname__ = f"{CommandModel.__name__}_{kind.files_digest}"
+    setattr(sys.modules[kind.__module__], kind.__qualname__, kind)
+    return kind
