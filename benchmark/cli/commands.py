@@ -24,6 +24,7 @@ COMMANDS = {
     "merge": "Merge run directories into one.",
     "report": "Write the HTML report of a run, or of what changed between two.",
     "motion": "Write the motion that a model made as GIF, AMC, BVH or CSV.",
+    "check-model": "Check that models of your own keep what their abilities promise.",
     "check": "Check that no metric of a run is worse than its reference value.",
     "compare": "Compare two runs, or two models of one run, by paired folds.",
     "power": "Say which difference how many people can show.",
@@ -62,7 +63,7 @@ class _Commands(TyperGroup):
     """A group of commands of which only the names and the help are loaded."""
 
     commands_by_name: ClassVar[dict[str, _DeferredCommand]] = {
-        name: _DeferredCommand(f"{__package__}.{name}", name, text)
+        name: _DeferredCommand(f"{__package__}.{name.replace('-', '_')}", name, text)
         for name, text in COMMANDS.items()
     }
 

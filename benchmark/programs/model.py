@@ -132,8 +132,8 @@ class CommandModel(FrameImputer):
 
     def _run(self, step: str, folder: Path) -> str:
         """Have the program do one step in a folder of files, and return what it said."""
-        words = (*self.command, step, str(folder))
-        return run_program(words, self.folder, {SEED: str(self.random_state)})
+        words, variables = (*self.command, step), {SEED: str(self.random_state)}
+        return run_program(words, folder, self.folder, variables)
 
     def _read(self, path: Path, said: str) -> NamedArrays:
         """Return the arrays of a prediction, ``mean`` or ``samples`` among them."""

@@ -38,7 +38,9 @@ class ProgramError(RuntimeError):
     """A program that failed, or did not do what it should."""
 
 
-def run_program(words: Sequence[str], folder: Path, variables: Mapping[str, str]) -> str:
+def run_program(
+    words: Sequence[str], files: Path, folder: Path, variables: Mapping[str, str]
+) -> str:
     """Have a program do its work, and return the last lines that it wrote to standard error.
 
     It may hold as much memory as this process may have addresses. It reads nothing, and what it
@@ -47,7 +49,9 @@ def run_program(words: Sequence[str], folder: Path, variables: Mapping[str, str]
     Parameters
     ----------
     words : sequence of str
-        The program and its arguments.
+        The program and its first arguments.
+    files : Path
+        Its last argument: the folder that it works on, which has another name every time.
     folder : Path
         Where it runs.
     variables : mapping of str to str
@@ -62,10 +66,10 @@ def run_program(words: Sequence[str], folder: Path, variables: Mapping[str, str]
     MemoryError
         If it holds more memory than it may.
     """
-    called, left = shlex.join(words), count_seconds_left()
+    called, left = f"{shlex.join(words)} FOLDER", count_seconds_left()
     seconds = max(_SHARE * left, left - _RESERVE)
     told = f"{min(seconds, _find_limit(resource.RLIMIT_CPU)):.0f}"
-    with _start(words, folder, {**variables, SECONDS: told}) as process:
+    with _start([*words, str(files)], folder, {**variables, SECONDS: told}) as process:
         said = _watch(process, called, seconds)
     if process.returncode in _OUT_OF_WORK:
         signal.raise_signal(signal.SIGXCPU)  # its work is that of this process, and so is its limit

@@ -45,10 +45,7 @@ def raised_by(name: str, promise: str) -> Iterator[None]:
     except ConformanceError as error:
         raise ConformanceError(f"{name}: {error}") from error
     except (Exception, SystemExit) as error:  # else the tests would end, with exit code 0
-        raise ConformanceError(
-            f"{name}: expected that {promise}, got {reason(error)}: "
-            "its traceback stands above this one"
-        ) from error
+        raise ConformanceError(f"{name}: expected that {promise}, got {reason(error)}") from error
 
 
 @contextmanager

@@ -32,6 +32,7 @@ GIVEN = {
     "merge": ("merge", "run", "other", "--out", "{new}"),
     "report": ("report", "--out", "run"),
     "motion": ("motion", "--help"),
+    "check-model": ("check-model", "--help"),
     "check": ("check", "run", "--reference", "reference.csv"),
     "compare": ("compare", "run", "--models", "trivial,linear"),
     "power": ("power", "run"),
@@ -45,7 +46,7 @@ GIVEN = {
     "wrong option": ("list", "--nonsense"),
 }
 """Each command, given such that it prints something and ends well."""
-AT_ONCE = ("init", "motion", "list", "info", "help", "version", "wrong option")
+AT_ONCE = ("init", "motion", "check-model", "list", "info", "help", "version", "wrong option")
 """Those that take a second or less."""
 every_command = pytest.mark.parametrize(
     "arguments",
