@@ -60,7 +60,8 @@ def load_plugin(path: Path) -> tuple[str, ...]:
     path : Path
         The TOML file of a model that is a command, or a Python file that defines one or more of
         ``MODELS = {"name": ModelClass}``, ``TASKS = {"name": task}``,
-        ``METRICS = {"name": metric}``, ``LIBRARIES = {"name": LibraryClass}`` and ``FORMATS = {"name": FormatClass}``.
+        ``METRICS = {"name": metric}``, ``LIBRARIES = {"name": LibraryClass}`` and
+        ``FORMATS = {"name": FormatClass}``.
 
     Returns
     -------
