@@ -7,14 +7,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mocapbench.baselines import LinearImputer
+from mocapbench.baselines import LinearImputer, PchipImputer
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.testing import check_model
 from mocapbench.benchmark.testing.subject import COMPLETE, SCATTERED, problem
 
 FOLDER = Path(__file__).parents[2] / "examples" / "commands"
-PROGRAMS = {"neighbours": "python3", "lines": "Rscript", "gaussian": "octave-cli"}
+PROGRAMS = {
+    "neighbours": "python3",
+    "lines": "Rscript",
+    "pchip_gaps": "octave-cli",
+    "gaussian": "octave-cli",
+    "means": "julia",
+}
 
 pytestmark = pytest.mark.slow
 
@@ -44,11 +50,14 @@ def test_every_example_is_tested(path):
     assert path.stem in PROGRAMS
 
 
-def test_lines_in_r_are_lines_in_python(build):
+@pytest.mark.parametrize(
+    ("name", "ours"), [("lines", LinearImputer()), ("pchip_gaps", PchipImputer())]
+)
+def test_an_interpolation_elsewhere_is_ours(build, name, ours):
     recordings = problem(SCATTERED)
-    (one,) = build("lines")().fit(recordings).impute(recordings[-1:])
-    (other,) = LinearImputer().fit(recordings).impute(recordings[-1:])
-    np.testing.assert_allclose(one.mean, other.mean, rtol=1e-12)
+    (one,) = build(name)().fit(recordings).impute(recordings[-1:])
+    (other,) = ours.fit(recordings).impute(recordings[-1:])
+    np.testing.assert_allclose(one.mean, other.mean, rtol=1e-9, atol=1e-12)
 
 
 def test_octave_predicts_as_a_gaussian_of_the_training_frames_does(build):

@@ -1,16 +1,8 @@
 import pytest
+from shell_models import ONES
 
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import MODELS
-
-ONES = """\
-for path in "$2"/given/*; do
-    out="$2/filled/$(basename "$path")"
-    mkdir "$out"
-    sed s/NaN/1.0/g "$path/values.csv" > "$out/mean.csv"
-done
-"""
-"""A model of a shell, which starts at once: 1 stands wherever an entry is hidden."""
 
 
 @pytest.fixture
