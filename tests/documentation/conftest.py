@@ -1,7 +1,9 @@
 """The folder in which the blocks of a page are tried."""
 
+import os
 import shutil
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -32,6 +34,8 @@ def desk(small_files, tmp_path, monkeypatch):
     folder = shutil.copytree(small_files, tmp_path / "desk")
     monkeypatch.chdir(folder)
     monkeypatch.syspath_prepend(folder)
+    with_libraries = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    monkeypatch.setenv("PATH", with_libraries)
     monkeypatch.delitem(sys.modules, "channel_mean", raising=False)
     monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=LocalCluster))
     return folder

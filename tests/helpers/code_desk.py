@@ -2,7 +2,7 @@
 
 Recordings are generated gait. `walk` and `jump` have gaps (as C3D, one of two in upperback),
 `other` has none, and the folder `walks` holds three people's, for the task file `my.toml`. `cmu` is
-a database of one walk. The plug-ins are those of docs/compare.md. `results` is a finished run,
+a database of one walk. The plug-ins are those of docs/compare.md and examples/commands. `results` is a finished run,
 `reference` has its metrics, and other runs are copies of it.
 """
 
@@ -31,6 +31,7 @@ def lay_out(folder, monkeypatch):
     for number, name in enumerate(("anna", "ben", "cleo")):
         write_waves(folder / "walks" / f"{name}.csv", n_frames=400 + number, channels=CHANNELS)
     _write_database(folder / "cmu" / "subjects" / "01")
+    shutil.copytree(ROOT / "examples" / "commands", folder, dirs_exist_ok=True)
     for example in code_blocks(ROOT / "docs" / "compare.md"):
         written(example.parsed)
     shell = Shell(folder)
