@@ -7,7 +7,7 @@ import shlex
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from mocapbench.baselines import ABILITIES, IMPLIED, FrameImputer, Interpolator
 from mocapbench.benchmark.errors import UsageError
@@ -146,7 +146,7 @@ def _digest_files(paths: list[Path]) -> str:
 
 def _register_class(name: str, content: Mapping[str, Any]) -> type[CommandModel]:
     """Return the class of a command, which pickle finds in the module of its base."""
-    kind = type(name, (CommandModel,), dict(content))
+    kind = cast("type[CommandModel]", type(name, (CommandModel,), dict(content)))
     kind.__module__ = CommandModel.__module__
     kind.__qualname__ = f"{CommandModel.__name__}_{kind.files_digest}"
     setattr(sys.modules[kind.__module__], kind.__qualname__, kind)

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from multiprocessing.connection import wait
 from pathlib import Path
-from typing import IO
 
 from mocapbench.basics.processes import count_seconds_left, die_with_parent, measure_memory
 from mocapbench.basics.words import printable
@@ -67,8 +66,8 @@ def run_program(
         If it holds more memory than it may.
     """
     called, left = f"{shlex.join(words)} FOLDER", count_seconds_left()
-    seconds = max(_SHARE * left, left - _RESERVE)
-    told = f"{min(seconds, _find_limit(resource.RLIMIT_CPU)):.0f}"
+    seconds = max(0.0, _SHARE * left, left - _RESERVE)
+    told = f"{min(seconds, _find_limit(resource.RLIMIT_CPU)):.1f}"
     with _start([*words, str(files)], folder, {**variables, SECONDS: told}) as process:
         said = _watch(process, called, seconds)
     if process.returncode in _OUT_OF_WORK:
@@ -122,14 +121,14 @@ def _prepare() -> None:
 def _watch(process: subprocess.Popen[bytes], called: str, seconds: float) -> bytes:
     """Return the end of what a program said, once it has ended."""
     assert process.stderr is not None
-    most = _find_limit(resource.RLIMIT_AS)
+    most, speech = _find_limit(resource.RLIMIT_AS), process.stderr.fileno()
     ended, said = os.pidfd_open(process.pid), b""
-    watched: list[IO[bytes] | int] = [process.stderr, ended]
+    watched = [speech, ended]
     left = count_seconds_left() - seconds
     try:
         while ended not in (ready := wait(watched, _LOOK)):
             if ready:
-                new = os.read(process.stderr.fileno(), 65_536)
+                new = os.read(speech, 65_536)
                 watched = watched if new else [ended]
                 said = (said + new)[-_KEPT:]
             _require_memory(called, measure_memory(process.pid), most, said)
@@ -138,7 +137,7 @@ def _watch(process: subprocess.Popen[bytes], called: str, seconds: float) -> byt
                     f"expected `{called}` to end within {seconds:.3g} s, got no end{_quote(said)}"
                 )
         process.wait()
-        return (said + _read_rest(process.stderr))[-_KEPT:]
+        return (said + _read_rest(speech))[-_KEPT:]
     finally:
         os.close(ended)
 
@@ -156,12 +155,12 @@ def _require_memory(called: str, held: int, most: float, said: bytes) -> None:
         )
 
 
-def _read_rest(stream: IO[bytes]) -> bytes:
+def _read_rest(pipe: int) -> bytes:
     """Return what is left in a pipe, which processes that live on may hold open."""
-    os.set_blocking(stream.fileno(), False)
+    os.set_blocking(pipe, False)
     said = b""
     with suppress(BlockingIOError):
-        while new := os.read(stream.fileno(), 65_536):
+        while new := os.read(pipe, 65_536):
             said = (said + new)[-_KEPT:]
     return said
 

@@ -2,8 +2,8 @@
 
 Recordings are generated gait. `walk` and `jump` have gaps (as C3D, one of two in upperback),
 `other` has none, and the folder `walks` holds three people's, for the task file `my.toml`. `cmu` is
-a database of one walk. The plug-ins are those of docs/compare.md and examples/commands. `results` is a finished run,
-`reference` has its metrics, and other runs are copies of it.
+a database of one walk. The plug-ins are those of docs/compare.md and examples/commands. `results`
+is a finished run, `reference` has its metrics, and other runs are copies of it.
 """
 
 import shutil

@@ -88,7 +88,7 @@ def test_it_is_told_how_long_it_has_and_is_stopped_before_its_process_is(shell, 
     assert time.monotonic() - started < 60.0
     assert kind == "TimeoutError"
     assert "to end within 2.7 s, got no end; it said: step 1" in message
-    assert (tmp_path / "told").read_text() == "3\n"
+    assert (tmp_path / "told").read_text() == "2.7\n"
 
 
 def with_deadline(shell, script):
