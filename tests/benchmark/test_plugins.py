@@ -276,7 +276,8 @@ def test_a_file_that_adds_nothing_says_why(load, text, complaint):
 @pytest.mark.parametrize(("name", "why"), [("absent.py", "does not exist"), (".", "is a folder")])
 def test_a_file_that_is_not_there(tmp_path, name, why):
     path = re.escape(repr(str(tmp_path / name)))
-    complaint = f"--plugin: expected a Python file, got {path}, which {why}; check the path"
+    expected = "expected a Python file, or the TOML file of a command"
+    complaint = f"--plugin: {expected}, got {path}, which {why}; check the path"
     with pytest.raises(UsageError, match=complaint):
         load_plugin(tmp_path / name)
 

@@ -34,8 +34,6 @@ def desk(small_files, tmp_path, monkeypatch):
     folder = shutil.copytree(small_files, tmp_path / "desk")
     monkeypatch.chdir(folder)
     monkeypatch.syspath_prepend(folder)
-    with_libraries = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    monkeypatch.setenv("PATH", with_libraries)
     monkeypatch.delitem(sys.modules, "channel_mean", raising=False)
     monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=LocalCluster))
     return folder
@@ -46,3 +44,4 @@ def _alone(patch, cache):
     patch.setenv("MOCAPBENCH_CACHE", str(cache))
     patch.setenv("HOME", str(cache))
     patch.setenv("COLUMNS", "100")
+    patch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
