@@ -22,7 +22,7 @@ SECONDS = "MOCAPBENCH_SECONDS"
 """The variable of the environment with the time that the program has."""
 _LOOK = 0.1
 """Seconds after which the memory of a program is measured again."""
-_SHARE, _RESERVE = 0.9, 2.0
+_SHARE, _RESERVE = 0.9, 5.0
 """Of the time that is left, which a program gets; and seconds beyond which no more is kept back.
 
 In the rest this process says what became of it.
