@@ -145,9 +145,12 @@ def _digest_files(paths: list[Path]) -> str:
 
 
 def _register_class(name: str, content: Mapping[str, Any]) -> type[CommandModel]:
-    """Return the class of a command, which pickle finds in the module of its base."""
+    """Return the class of a command, which pickle finds in the module of its base.
+
+    There its name has no dots, by which pickle would look for parts of a class.
+    """
     kind = cast("type[CommandModel]", type(name, (CommandModel,), dict(content)))
     kind.__module__ = CommandModel.__module__
-    kind.__qualname__ = f"{CommandModel.__name__}_{kind.files_digest}"
+    kind.__qualname__ = f"{CommandModel.__name__}:{name.replace('.', ':')}"
     setattr(sys.modules[kind.__module__], kind.__qualname__, kind)
     return kind

@@ -1,5 +1,6 @@
 """The TOML file of a command says what the model is, and what makes its predictions new."""
 
+import pickle
 import shutil
 
 import pytest
@@ -116,6 +117,14 @@ def test_predictions_are_new_if_the_file_or_a_file_that_it_lists_changes(declare
     second = find_key()
     load_plugin(declare(lines='environment = "dash 0.6"'))
     assert len({first, second, find_key()}) == 3
+
+
+def test_a_name_with_dots_can_be_pickled(declare):
+    path = declare()
+    path.write_text(path.read_text().replace('"mine"', '"my.own-1.2"'))
+    load_plugin(path)
+    model = MODELS.get("my.own-1.2")(random_state=3)
+    assert pickle.loads(pickle.dumps(model)).random_state == 3
 
 
 def test_a_worker_elsewhere_gets_the_files_that_it_lists(declare, tmp_path):
