@@ -66,7 +66,7 @@ def test_help_loads_no_numerical_library(arguments, shown):
     ("words", "expected"),
     [
         ("mocapbench ru", {"run"}),
-        ("mocapbench c", {"check", "compare"}),
+        ("mocapbench c", {"check", "check-model", "compare"}),
         ("mocapbench st", {"status"}),
         ("mocapbench me", {"merge"}),
         ("mocapbench run --pro", {"--profile"}),
