@@ -74,7 +74,7 @@ def check(
     ] = False,
     plugin: Plugins = None,
 ) -> None:
-    """Check that no metric of a run is worse than its reference value.
+    """Check that no metric of a run is worse than its reference.
 
     Values are paired by fold. Exit code 1 says that a metric got worse.
     """

@@ -32,7 +32,7 @@ def check_model(
         float, typer.Option(min=1.0, help="Seconds that a model has for each check.")
     ] = 120.0,
 ) -> None:
-    """Check that models of your own keep what their abilities promise.
+    """Check that your own models keep what their abilities promise.
 
     They fill small recordings in odd orders, with odd masks and seeds. The exit code is 0 if all is
     well, and else 2.

@@ -1,4 +1,4 @@
-"""``mocapbench report``: write the HTML report of a run, or of what changed between two."""
+"""``mocapbench report``: write the HTML report of a run, or of changes between two."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def report(
     data_dir: DataDir = None,
     plugin: Plugins = None,
 ) -> None:
-    """Write the HTML report of a run, or of what changed between two."""
+    """Write the HTML report of a run, or of changes between two."""
     load_plugins(plugin)
     require_writable(to)
     match runs or []:

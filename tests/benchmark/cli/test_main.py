@@ -441,7 +441,7 @@ def test_the_version_is_shown(cli):
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_list_of_commands_says_of_each_what_it_says_itself(cli, name):
-    module = importlib.import_module(f"mocapbench.benchmark.cli.{name}")
+    module = importlib.import_module(f"mocapbench.benchmark.cli.{name.replace('-', '_')}")
     command = get_command(module.app)
     assert COMMANDS[name] == command.help.partition("\n")[0]
     assert cli("--help") == 0
