@@ -8,6 +8,9 @@ from .cyclic_alignment import CyclicAlignment
 from .declarations.abilities import ABILITIES, IMPLIED
 from .declarations.needs import NEEDS, Need
 from .fam import FAM
+from .forecasting.neighbours import NeighbourForecast
+from .forecasting.ridge import RidgeForecast
+from .forecasting.velocity import ConstantVelocity
 from .gp_independent import GPIndependent
 from .gpdm.model import GPDM
 from .gplvm import GPLVM
@@ -42,6 +45,7 @@ from .protocols import (
     Coregionalised,
     Dynamical,
     Embedded,
+    Forecaster,
     FrameByStyle,
     FrameImputer,
     Imputer,
@@ -83,12 +87,14 @@ __all__ = [
     "Calibrated",
     "ChannelKriging",
     "Clusterer",
+    "ConstantVelocity",
     "Control",
     "Coregionalised",
     "CubicSplineImputer",
     "CyclicAlignment",
     "Dynamical",
     "Embedded",
+    "Forecaster",
     "FrameByStyle",
     "FrameImputer",
     "GPIndependent",
@@ -105,6 +111,7 @@ __all__ = [
     "MarkerKriging",
     "Model",
     "Need",
+    "NeighbourForecast",
     "Oracle",
     "PCARegression",
     "PchipImputer",
@@ -112,6 +119,7 @@ __all__ = [
     "PoseViterbi",
     "Prediction",
     "Replay",
+    "RidgeForecast",
     "RigidBody",
     "SampleByFrameByChannel",
     "StatePath",

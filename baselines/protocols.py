@@ -5,8 +5,9 @@ data: ``provides`` has the names of its abilities and ``needs`` those of its nee
 `mocapbench.baselines.declarations` describes. Both are asked of an unfitted model, so that one that
 wraps another may answer for it. A model inherits a class for each ability that it has:
 
-* `FrameImputer` fills frames that are hidden as a whole: it gives the mean, and optionally the
-  variance, of :math:`p(y_{\text{hidden}} \mid y_{\text{visible}})`;
+* `Forecaster` continues recordings: it gives the mean, and optionally the variance, of
+  :math:`p(y_{\text{hidden}} \mid y_{\text{visible}})` of the frames after the last visible one;
+* `FrameImputer` fills frames that are hidden as a whole, and is therefore a `Forecaster`;
 * `Imputer` fills any set of hidden entries, and is therefore a `FrameImputer`;
 * `Inductive` is an imputer that also fills recordings that were not given to `fit`;
 * `Interpolator` is an imputer that fills each channel from its own course alone;
@@ -47,6 +48,7 @@ __all__ = [
     "Coregionalised",
     "Dynamical",
     "Embedded",
+    "Forecaster",
     "FrameByStyle",
     "FrameImputer",
     "Imputer",
@@ -246,28 +248,13 @@ def _public_methods(owner: type) -> list[tuple[str, FunctionType]]:
     ]
 
 
-class FrameImputer(Model):
-    """A model that fills frames that are hidden as a whole.
+class Forecaster(Model):
+    """A model that continues recordings: it fills the frames after the last visible one.
 
-    Every frame of a recording to fill is either visible or hidden in all channels. See `Imputer`
-    for an example of an implementation.
+    Every frame up to that one, or the last few of them, is visible in all channels.
     """
 
-    provides: ClassVar[frozenset[str]] = frozenset({"fills frames"})
-
-    max_frames: ClassVar[int | None] = None
-    """The most frames, all recordings together, that the model fills in some seconds; None is no
-    limit. ``mocapbench fill`` gives it windows of longer recordings, around their gaps."""
-    fill_cost: ClassVar[Mapping[str, float] | None] = None
-    """What it costs to fit the model to a recording and fill it: the coefficient ``"seconds"`` and
-    the exponents of a power law of the sizes of the problem, which are ``"frames"``,
-    ``"channels"``, ``"gaps"``, ``"longest"`` (frames of the longest gap), ``"groups"`` (of channels
-    that are hidden together) and ``"parts"`` (gaps of each channel beside visible ones); what is
-    left out has the exponent 0. ``mocapbench fill`` decides by it whether there is time for the
-    model. Models that were measured need none."""
-    learns_in_fit: ClassVar[bool] = True
-    """Whether `fit` learns anything. A model that only keeps the recordings, and learns when it
-    fills one of them, is `Calibrated` by recordings held out besides: that costs nothing."""
+    provides: ClassVar[frozenset[str]] = frozenset({"continues recordings"})
 
     @abstractmethod
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -288,6 +275,30 @@ class FrameImputer(Model):
         ValueError
             If a recording cannot be filled.
         """
+
+
+class FrameImputer(Forecaster):
+    """A model that fills frames that are hidden as a whole.
+
+    Every frame of a recording to fill is either visible or hidden in all channels. See `Imputer`
+    for an example of an implementation.
+    """
+
+    provides: ClassVar[frozenset[str]] = Forecaster.provides | {"fills frames"}
+
+    max_frames: ClassVar[int | None] = None
+    """The most frames, all recordings together, that the model fills in some seconds; None is no
+    limit. ``mocapbench fill`` gives it windows of longer recordings, around their gaps."""
+    fill_cost: ClassVar[Mapping[str, float] | None] = None
+    """What it costs to fit the model to a recording and fill it: the coefficient ``"seconds"`` and
+    the exponents of a power law of the sizes of the problem, which are ``"frames"``,
+    ``"channels"``, ``"gaps"``, ``"longest"`` (frames of the longest gap), ``"groups"`` (of channels
+    that are hidden together) and ``"parts"`` (gaps of each channel beside visible ones); what is
+    left out has the exponent 0. ``mocapbench fill`` decides by it whether there is time for the
+    model. Models that were measured need none."""
+    learns_in_fit: ClassVar[bool] = True
+    """Whether `fit` learns anything. A model that only keeps the recordings, and learns when it
+    fills one of them, is `Calibrated` by recordings held out besides: that costs nothing."""
 
     def impute_uncalibrated(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute` before their variances are calibrated.

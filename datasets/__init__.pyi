@@ -39,6 +39,14 @@ from .preprocessing import (
 )
 from .process import Layer, ToyProcess
 from .recording import FrameByChannel, Frames, Mask, Recording
+from .rotations.body import (
+    PREDICTED,
+    complete_joints,
+    place_rotated_joints,
+    rotation_skeleton,
+)
+from .rotations.library import RotationLibrary, original_recordings
+from .rotations.recipe import rotations_of
 from .taylor import taylor_deviations, taylor_features, taylor_scales
 
 __all__ = [
@@ -46,6 +54,7 @@ __all__ = [
     "CMU_URL",
     "FRAME_RATE",
     "GAIT_VERSION",
+    "PREDICTED",
     "THESIS_CHANNELS",
     "AcclaimError",
     "AcclaimFormat",
@@ -74,6 +83,7 @@ __all__ = [
     "Recording",
     "RecordingStatus",
     "RecordingUnavailable",
+    "RotationLibrary",
     "Segment",
     "ServerUnreachable",
     "Skeleton",
@@ -84,6 +94,7 @@ __all__ = [
     "TruncatedFrameWarning",
     "UnregisteredDigestWarning",
     "check_alike",
+    "complete_joints",
     "format_motion",
     "format_skeleton",
     "frame_rate",
@@ -98,8 +109,10 @@ __all__ = [
     "named_folders",
     "one_based_frames",
     "open_archive",
+    "original_recordings",
     "parse_motion",
     "parse_skeleton",
+    "place_rotated_joints",
     "position_channels",
     "read_motion",
     "read_people",
@@ -108,6 +121,8 @@ __all__ = [
     "resample",
     "restart",
     "root_differences",
+    "rotation_skeleton",
+    "rotations_of",
     "subject_of",
     "taylor_deviations",
     "taylor_features",

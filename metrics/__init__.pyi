@@ -4,6 +4,14 @@ from .calibration import coverage_50, coverage_80, coverage_90, coverage_95, crp
 from .clustering import adjusted_rand, purity
 from .contact import foot_skate, sample_foot_skate
 from .errors import mse, smse, smse_pooled
+from .horizons import (
+    mpjpe_at_2,
+    mpjpe_at_4,
+    mpjpe_at_8,
+    mpjpe_at_10,
+    mpjpe_at_14,
+    mpjpe_at_25,
+)
 from .jerk import jerk_ratio, sample_jerk_ratio
 from .likelihood import msll
 from .norms import angle_error_per_frame, rms_per_frame, root_error_per_frame
@@ -49,6 +57,12 @@ __all__ = [
     "mlc",
     "mlc_best",
     "mpjpe",
+    "mpjpe_at_2",
+    "mpjpe_at_4",
+    "mpjpe_at_8",
+    "mpjpe_at_10",
+    "mpjpe_at_14",
+    "mpjpe_at_25",
     "mpjpe_global",
     "mse",
     "msll",

@@ -14,6 +14,7 @@ __all__ = ["ABILITIES", "IMPLIED", "describe_abilities"]
 ABILITIES: Mapping[str, str] = {
     "fills entries": "fills any gaps",
     "fills frames": "fills gaps of whole frames",
+    "continues recordings": "continues recordings",
     "fills new recordings": "new recordings too",
     "interpolates": "fills each channel by itself",
     "turns along": "fills joint angles alike wherever a motion stands and faces",
@@ -32,6 +33,7 @@ ABILITIES: Mapping[str, str] = {
 
 IMPLIED: Mapping[str, str] = {
     "fills entries": "fills frames",
+    "fills frames": "continues recordings",
     "interpolates": "fills entries",
     "turns along": "fills frames",
     "blends": "clusters",

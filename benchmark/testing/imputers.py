@@ -10,10 +10,11 @@ import numpy as np
 
 from mocapbench.baselines import Prediction
 from mocapbench.benchmark.testing.errors import ConformanceError, require, require_equal
-from mocapbench.benchmark.testing.subject import COMPLETE, GAP, SCATTERED, Subject, problem
+from mocapbench.benchmark.testing.subject import COMPLETE, END, GAP, SCATTERED, Subject, problem
 from mocapbench.datasets import Recording
 
 __all__ = [
+    "continues_recordings",
     "fills_any_mask",
     "fills_channels_apart",
     "fills_new_recordings",
@@ -28,6 +29,16 @@ __all__ = [
 _TOLERANCE = 1e-4
 _ROUNDING = 1e-6
 """What the order and the names of recordings may change, in standard deviations."""
+
+
+def continues_recordings(subject: Subject) -> None:
+    """Check that the frames after the last visible one are filled, the same from the same seed."""
+    recordings = problem(END)
+    one, two = (
+        _fill_recordings(subject.fit_model(recordings), [recordings[-1]])[0].mean for _ in range(2)
+    )
+    advice = "take all randomness from random_state"
+    require_equal(one, two, "the same answer from the same seed", advice)
 
 
 def fills_whole_frames(subject: Subject) -> None:
@@ -117,13 +128,13 @@ def _compare_training(
 def fills_new_recordings(subject: Subject) -> None:
     """Check that a recording that fit has not seen is filled: the class is `Inductive`."""
     seen = COMPLETE[-1]
-    new = Recording("new", seen.times, seen.values, seen.channels, seen.units).hide(GAP)
+    new = Recording("new", seen.times, seen.values, seen.channels, seen.units).hide(END)
     _fill_recordings(subject.fit_model(COMPLETE[:-1]), [new])
 
 
 def refuses_new_recordings(subject: Subject) -> None:
     """Check that a recording that fit has not seen is refused by name: it is not `Inductive`."""
-    new = COMPLETE[-1].hide(GAP)
+    new = COMPLETE[-1].hide(END)
     model = subject.fit_model(COMPLETE[:-1])
     expected = f"a ValueError that names {new.name}, which fit has not seen"
     advice = "raise it, or inherit Inductive if you can fill new recordings"

@@ -57,8 +57,29 @@ _IMPUTED = Imputation(
     units=("deg", ""),
     place_joints=_imputed_poses,
 )
+_N_CONTINUED = 2 * len(TIMES)
+
+
+def _continued_poses() -> ImputedPoses:
+    """Return a foot of which only the first frames are visible."""
+    truth = np.zeros((_N_CONTINUED, 2, 3))
+    hidden = np.outer(np.arange(_N_CONTINUED) > 4, [False, True])
+    times = np.arange(_N_CONTINUED) / 60
+    return ImputedPoses(
+        truth, truth + 0.1 * hidden[..., None], hidden, hidden, _JOINTS, (-1, 0), times
+    )
+
+
+_CONTINUED = replace(
+    _IMPUTED,
+    truth=np.tile(_IMPUTED.truth, (2, 1)),
+    mean=np.tile(_IMPUTED.mean, (2, 1)),
+    variance=None,
+    hidden=np.repeat((np.arange(_N_CONTINUED) > 4)[:, None], 2, axis=1),
+    place_joints=_continued_poses,
+)
 OUTCOMES: Mapping[type, tuple[Any, ...]] = {
-    Imputation: (_IMPUTED, replace(_IMPUTED, units=("cm", "cm"))),
+    Imputation: (_IMPUTED, replace(_IMPUTED, units=("cm", "cm")), _CONTINUED),
     Synthesis: (
         Synthesis(
             np.stack([r.values for r in COMPLETE[:2]]),

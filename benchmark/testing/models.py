@@ -66,7 +66,7 @@ def model_checks(model: type[Model], **parameters: Any) -> tuple[Callable[..., N
     able = not provides.isdisjoint(_OF_ABILITY)
     require(able, f"a model with an ability of {names}", model.__name__, advice)
     groups = [_OF_EVERY_MODEL, *(_OF_ABILITY[name] for name in _OF_ABILITY if name in provides)]
-    if "fills frames" in provides:
+    if "continues recordings" in provides:
         new = {True: imputers.fills_new_recordings, False: imputers.refuses_new_recordings}
         groups.append((new["fills new recordings" in provides],))
     return tuple(_name_check(check) for group in groups for check in group)
@@ -151,6 +151,7 @@ _OF_EVERY_MODEL: tuple[ModelCheck, ...] = (
 )
 
 _OF_ABILITY: Mapping[str, tuple[ModelCheck, ...]] = {
+    "continues recordings": (imputers.continues_recordings,),
     "fills frames": (
         imputers.fills_whole_frames,
         imputers.repeats_itself,

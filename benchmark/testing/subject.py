@@ -11,16 +11,17 @@ import numpy as np
 from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
 from mocapbench.datasets import Recording, ToyProcess
 
-__all__ = ["COMPLETE", "GAP", "SCATTERED", "TIMES", "Subject", "problem"]
+__all__ = ["COMPLETE", "END", "GAP", "SCATTERED", "TIMES", "Subject", "problem"]
 
 TIMES = np.linspace(0.0, 2.0 * np.pi, 20)
 _PROCESS = ToyProcess.random(np.random.default_rng(5), n_outputs=2, noise=0.01)
 _OTHER_PROCESS = ToyProcess.random(np.random.default_rng(8), n_outputs=2, noise=0.01)
 COMPLETE = _PROCESS.draw(np.random.default_rng(6), TIMES, 4)
 GAP = np.repeat(((np.arange(20) > 7) & (np.arange(20) < 12))[:, None], 2, axis=1)
+END = np.repeat((np.arange(20) > 13)[:, None], 2, axis=1)
 SCATTERED = np.random.default_rng(7).random((20, 2)) < 0.5
 
-_BUDGET = {"max_iter": 20, "n_restarts": 1}
+_BUDGET = {"max_iter": 20, "n_restarts": 1, "n_seen": 4, "n_ahead": 6}
 
 
 def problem(hidden: np.typing.NDArray[np.bool_]) -> tuple[Recording, ...]:

@@ -28,6 +28,10 @@ QUESTIONS: Mapping[str, tuple[str, str]] = {
         "Fill with other channels",
         "Some channels are hidden while others stay visible: what do those tell about them?",
     ),
+    "next-frames": (
+        "Predict the next frames",
+        "A few frames are seen: what comes next?",
+    ),
     "invent-motion": (
         "Invent motion",
         "New recordings are drawn: do they resemble motion that the model has not seen?",
