@@ -9,6 +9,7 @@ from .declarations.abilities import ABILITIES, IMPLIED
 from .declarations.needs import NEEDS, Need
 from .fam import FAM
 from .forecasting.neighbours import NeighbourForecast
+from .forecasting.window_process import ProcessForecast
 from .forecasting.ridge import RidgeForecast
 from .forecasting.velocity import ConstantVelocity
 from .gp_independent import GPIndependent
@@ -118,6 +119,7 @@ __all__ = [
     "PoseKriging",
     "PoseViterbi",
     "Prediction",
+    "ProcessForecast",
     "Replay",
     "RidgeForecast",
     "RigidBody",

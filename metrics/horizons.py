@@ -121,7 +121,7 @@ mpjpe_at_2, mpjpe_at_4, mpjpe_at_8, mpjpe_at_10, mpjpe_at_14, mpjpe_at_25 = (
             f"Mean distance of predicted joints from true ones {frame} frames after the last "
             "visible one, over all joints of the body."
         ),
-        unit="mm, as the task has them",
+        unit="mm",
         range="0 to ∞",
         source="Mao et al. 2019",
         defined=partial(_is_continued, frame=frame),

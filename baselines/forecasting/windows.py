@@ -87,7 +87,7 @@ class WindowForecaster(Forecaster, Inductive):
         self._check_parameters()
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        windows = cut_windows(by_name(checked), self.n_seen + self.n_ahead)
+        windows = cut_windows(self._prepare(by_name(checked)), self.n_seen + self.n_ahead)
         self._learn(windows[:, : self.n_seen], windows[:, self.n_seen :])
         return self
 
@@ -123,6 +123,10 @@ class WindowForecaster(Forecaster, Inductive):
 
     def _check_parameters(self) -> None:
         """Raise ValueError if a parameter of the subclass is out of range."""
+
+    def _prepare(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
+        """Return the recordings of which windows are learnt from."""
+        return recordings
 
     @abstractmethod
     def _learn(self, seen: WindowByFrameByChannel, ahead: WindowByFrameByChannel) -> None:

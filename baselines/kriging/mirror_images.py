@@ -31,7 +31,7 @@ from mocapbench.baselines.kriging.conditioned import ConditionedFrames
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["Image", "MirroredResiduals", "find_symmetries", "images_of"]
+__all__ = ["Image", "MirroredResiduals", "find_symmetries", "images_of", "mirror_image"]
 
 _SIDES = (("left", "right"), ("Left", "Right"), ("l", "r"), ("L", "R"))
 """How names of segments on the left and on the right begin."""
@@ -89,7 +89,7 @@ def find_symmetries(recordings: Sequence[Recording]) -> tuple[Image, ...]:
     """
     channels = recordings[0].channels
     itself = (Image.itself(len(channels)),)
-    mirrored = _mirror_image(channels)
+    mirrored = mirror_image(channels)
     if mirrored is None:
         return itself
     shared = [_explained_share(mirrored, recording) for recording in recordings]
@@ -164,7 +164,7 @@ class MirroredResiduals:
         return self.images[-1].kept
 
 
-def _mirror_image(channels: Sequence[str]) -> Image | None:
+def mirror_image(channels: Sequence[str]) -> Image | None:
     """Return the mirror image; None where names do not tell what it is."""
     parts = [name.rpartition(".") for name in channels]
     segments = {segment for segment, _, _ in parts}

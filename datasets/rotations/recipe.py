@@ -54,7 +54,7 @@ def rotations_of(recording: Recording, skeleton: Skeleton) -> Recording:
             f"recording {recording.name!r}: expected the segments of the CMU database, got none of "
             f"{lacking}; name a recording of its skeletons"
         )
-    vectors = [_turn_bone(segments.get(bone), recording) for bone in BONES]
+    vectors = [_rotate_bone(segments.get(bone), recording) for bone in BONES]
     path = np.round(recording.select([f"root.t{axis}" for axis in "xyz"]).values, _DECIMALS)
     moving = np.hstack([path, *vectors])
     rest = np.concatenate([path[0], REST.ravel()])
@@ -65,12 +65,12 @@ def rotations_of(recording: Recording, skeleton: Skeleton) -> Recording:
     )
 
 
-def _turn_bone(segment: Segment | None, recording: Recording) -> FrameByChannel:
+def _rotate_bone(segment: Segment | None, recording: Recording) -> FrameByChannel:
     """Return the rotation vectors (N, 3) of a segment; none of the end of a limb."""
     if segment is None:
         return np.zeros((len(recording.times), 3))
     angles, is_root = _list_angles(segment, recording), segment.parent == ""
-    return _round_root(angles) if is_root else _round_turn(_turn_segment(segment, angles))
+    return _round_root(angles) if is_root else _round_rotation(_rotate_segment(segment, angles))
 
 
 def _list_angles(segment: Segment, recording: Recording) -> Array:
@@ -82,21 +82,21 @@ def _list_angles(segment: Segment, recording: Recording) -> Array:
     return np.column_stack(found)
 
 
-def _turn_segment(segment: Segment, angles: Array) -> Rotation:
+def _rotate_segment(segment: Segment, angles: Array) -> Rotation:
     axis = Rotation.from_euler("xyz", segment.axis, degrees=True)
     return axis * Rotation.from_euler("xyz", angles, degrees=True) * axis.inv()
 
 
-def _round_turn(turn: Rotation) -> FrameByChannel:
-    degrees = np.round(turn.as_euler("ZYX", degrees=True), _DECIMALS)
-    return _invert_turn(Rotation.from_euler("ZYX", degrees, degrees=True))
+def _round_rotation(rotation: Rotation) -> FrameByChannel:
+    degrees = np.round(rotation.as_euler("ZYX", degrees=True), _DECIMALS)
+    return _list_vectors(Rotation.from_euler("ZYX", degrees, degrees=True))
 
 
 def _round_root(angles: Array) -> FrameByChannel:
     """Return the root's rotation vectors: its angles as they are, taken in another order."""
     degrees = np.round(angles[:, [2, 0, 1]], _DECIMALS)
-    return _invert_turn(Rotation.from_euler("ZXY", degrees, degrees=True))
+    return _list_vectors(Rotation.from_euler("ZXY", degrees, degrees=True))
 
 
-def _invert_turn(turn: Rotation) -> FrameByChannel:
-    return np.asarray(turn.inv().as_rotvec())
+def _list_vectors(rotation: Rotation) -> FrameByChannel:
+    return np.asarray(rotation.inv().as_rotvec())

@@ -16,6 +16,7 @@ FAMILIES = (
     "Across channels",
     "Neighbours",
     "Interpolation",
+    "Forecasts",
     "Several models",
     "Your models",
     "References",

@@ -88,6 +88,8 @@ class TaskPage:
         The tables to show, in order. The headlines use the first.
     published_rows, published_models, published_metrics : mapping of str to str
         From our cases, labels and metrics to the paper's names; what the paper lacks is left out.
+    published_mean : str
+        The paper's name of the mean over our cases, if it prints one.
     not_comparable : mapping of (label, metric) to str
         Why a published value cannot be compared with ours. The metric ``"*"`` stands for all.
     not_comparable_rows : mapping of (case, label) to str
@@ -127,6 +129,7 @@ class TaskPage:
     published_rows: Mapping[str, str] = field(default_factory=dict)
     published_models: Mapping[str, str] = field(default_factory=dict)
     published_metrics: Mapping[str, str] = field(default_factory=dict)
+    published_mean: str = ""
     not_comparable: Mapping[tuple[str, str], str] = field(default_factory=dict)
     not_comparable_rows: Mapping[tuple[str, str], str] = field(default_factory=dict)
     exempt: Mapping[str, str] = field(default_factory=dict)

@@ -28,6 +28,21 @@ CITATIONS = {
         "N. D. Lawrence, Learning for Larger Datasets with the Gaussian Process Latent Variable "
         "Model, International Conference on Artificial Intelligence and Statistics, 2007"
     ),
+    "Mao": (
+        "W. Mao, M. Liu, M. Salzmann and H. Li, Learning Trajectory Dependencies for Human Motion "
+        "Prediction, International Conference on Computer Vision, 2019"
+    ),
+    "Dang": (
+        "L. Dang, Y. Nie, C. Long, Q. Zhang and G. Li, MSR-GCN: Multi-Scale Residual Graph "
+        "Convolution Networks for Human Motion Prediction, International Conference on Computer "
+        "Vision, 2021"
+    ),
+    "Ma": (
+        "T. Ma, Y. Nie, C. Long, Q. Zhang and G. Li, Progressively Generating Better Initial "
+        "Guesses Towards Next Stages for High-Quality Human Motion Prediction, Conference on "
+        "Computer Vision and Pattern Recognition, 2022"
+    ),
+    "Wan": "GGMotion, values printed in the repository of its code, 2025",
 }
 """Short name to full citation."""
 

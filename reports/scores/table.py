@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -232,24 +232,37 @@ def _published_rows(
 ) -> Iterator[ScoreRow]:
     """Yield a row for each model of the paper that no entrant of the run stands for.
 
-    Its mean is that of the cases ``counting``, if all have one.
+    Its mean is the one that the paper prints of all its cases, where these are those ``counting``,
+    or else that of the latter, if all have one.
     """
-    places = results.decimals.get(metric, FEWEST_DECIMALS)
+    places, page = results.decimals.get(metric, FEWEST_DECIMALS), results.layout.page
+    rows = {page.published_rows.get(case.name) for case in counting}
+    mean_row = page.published_mean if {*page.published_rows.values()} <= rows else ""
     for model, printed in _published_models(results, metric).items():
-        find = partial(_printed_value, results.layout.page.published_rows, printed)
+        find = partial(_printed_value, page.published_rows, printed)
         values = [*map(find, counting)]
         whole = [value for value in values if value is not None]
-        if whole:
-            mean = float(np.mean(whole)) if len(whole) == len(values) else None
-            cells = [_published_cell(find(case), places) for case in shown]
+        mean = float(np.mean(whole)) if whole and len(whole) == len(values) else None
+        shown_mean = _published_mean_cell(printed.get(mean_row), mean, places)
+        if whole or shown_mean is not ABSENT:
             yield ScoreRow(
                 f"{model} (published)",
                 "published",
-                _published_cell(mean, places),
+                shown_mean,
                 ABSENT,
                 None,
-                tuple(cells),
+                tuple(_published_cell(find(case), places) for case in shown),
             )
+
+
+def _published_mean_cell(printed: float | None, of_cases: float | None, places: int) -> Cell:
+    """Return the printed mean, with that of the printed cases below it where it is another."""
+    if printed is None:
+        return _published_cell(of_cases, places)
+    cell = _published_cell(printed, places)
+    if of_cases is None or abs(printed - of_cases) <= 0.5 * 10.0**-places:
+        return cell
+    return replace(cell, note=f"{number(of_cases, places)} by its cases")
 
 
 def _published_models(results: TaskResults, metric: str) -> Mapping[str, dict[str, float]]:

@@ -13,7 +13,7 @@ from mocapbench.reports.bundle.task_page import QUESTIONS
 MOST_WORDS = 30
 MOST_WORDS_OF_A_DESCRIPTION = 60
 MOST_WORDS_OF_A_REMARK = 40
-UNITS = {"", "cm", "cm/s", "degrees", "nats", "that of the data", "that of the data, squared"}
+UNITS = {"", "cm", "mm", "cm/s", "degrees", "nats", "that of the data", "that of the data, squared"}
 UNITS |= {"steps of frequency", "skeleton units (5.64 cm in the CMU database)"}
 
 

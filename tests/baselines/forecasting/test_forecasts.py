@@ -3,11 +3,16 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines import ConstantVelocity, NeighbourForecast, RidgeForecast
+from mocapbench.baselines import ConstantVelocity, NeighbourForecast, ProcessForecast, RidgeForecast
 from mocapbench.baselines.forecasting.windows import count_ahead, cut_windows
 from mocapbench.datasets import Recording
 
-LEARNERS = (RidgeForecast, NeighbourForecast)
+LEARNERS = (RidgeForecast, NeighbourForecast, ProcessForecast)
+PRECISE = {
+    RidgeForecast: {"penalty": 1e-3},
+    NeighbourForecast: {"n_neighbors": 1},
+    ProcessForecast: {"noise": 1e-4},
+}
 
 
 def waves(name, phase, n=60, step=0.3):
@@ -24,9 +29,7 @@ GIVEN = NEW.hide((np.arange(14) > 8)[:, None])
 
 @pytest.mark.parametrize("model", LEARNERS)
 def test_a_motion_like_those_learnt_from_is_continued(model):
-    fitted = model(
-        n_seen=4, n_ahead=5, **({"penalty": 1e-3} if model is RidgeForecast else {"n_neighbors": 1})
-    ).fit(TRAINING)
+    fitted = model(n_seen=4, n_ahead=5, **PRECISE[model]).fit(TRAINING)
     (prediction,) = fitted.impute([GIVEN])
     hold = np.abs(NEW.values[9:] - NEW.values[8]).max()
     assert np.abs(prediction.mean - NEW.values).max() < 0.15 * hold

@@ -20,14 +20,18 @@ OF_THEIR_OWN = {
         *(f"GP-LVM (q={q})" for q in (3, 4, 5)),
         "binary latent variable model",
         "scaled NN (two frames, absolute root)",
-    }
+    },
+    **{
+        name: {value.model for value in VALUES if value.task == name}
+        for name in ("motion-prediction", "motion-prediction-8-windows")
+    },
 }
 """Models that have no entrant here: the report shows them as columns of published values."""
 
 
 def _rows(task):
     """Return the names of published rows that the task's page sets its cases beside."""
-    return set(task.page.published_rows.values())
+    return {*task.page.published_rows.values(), task.page.published_mean}
 
 
 def _has_counterpart(task, value):
@@ -55,6 +59,6 @@ def test_every_counterpart_that_a_task_names_is_printed(name):
     """A misspelt row, metric or model would silently stand beside nothing."""
     task = TASKS.get(name)
     printed = [value for value in VALUES if value.task == name]
-    assert _rows(task) <= {value.case for value in printed}
+    assert _rows(task) - {""} <= {value.case for value in printed}
     assert set(task.page.published_metrics.values()) <= {value.metric for value in printed}
     assert set(task.page.published_models.values()) <= {value.model for value in printed}

@@ -15,7 +15,12 @@ from mocapbench.reports.figures.scores.strips import draw_strips
 from mocapbench.reports.figures.strip import strip_scale
 from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.paper.published import published_values
-from mocapbench.reports.scores.table import behind_cell, describe_basis, score_table
+from mocapbench.reports.scores.table import (
+    _published_mean_cell,
+    behind_cell,
+    describe_basis,
+    score_table,
+)
 from mocapbench.reports.tables.base import ABSENT
 from mocapbench.reports.text import cell_anchor
 
@@ -223,3 +228,38 @@ def test_a_paper_that_lacks_a_case_has_no_mean(small):
     assert rows
     assert {row.mean for row in rows} == {ABSENT}
     assert all(math.isfinite(row.cells[0].value) for row in rows)
+
+
+ACTIONS = sorted(
+    {value.case for value in published_values("motion-prediction").values()}
+    - {"mean", "mean without running", "mean (over which actions is not said)"}
+)
+
+
+def published_means(small, actions):
+    """Return the mean of each model of the papers, and the note below it, of a run of some rows."""
+    bundle = small(
+        {action: {"a": [80.0]} for action in actions},
+        task="motion-prediction",
+        published_rows={action: action for action in ACTIONS},
+        published_metrics={"mse": "MPJPE at 1000 ms"},
+        published_mean="mean",
+    )
+    rows = [row for row in table_of(bundle)["rows"] if row.kind == "published"]
+    return {row.label.removesuffix(" (published)"): (row.mean.value, row.mean.note) for row in rows}
+
+
+def test_the_mean_of_a_paper_is_the_printed_one_where_all_its_cases_are_run(small):
+    means = published_means(small, ACTIONS)
+    assert means["MSR-GCN (Dang 2021)"] == (78.63, "")
+    assert means["PGBIG (Ma 2022, supplement)"][0] is None  # it lacks running
+
+
+def test_the_printed_mean_of_other_cases_stands_beside_no_run_of_some(small):
+    means = published_means(small, ACTIONS[:2])
+    assert means["MSR-GCN (Dang 2021)"][0] == pytest.approx((86.96 + 47.91) / 2)
+
+
+def test_a_printed_mean_that_is_not_that_of_its_cases_says_so():
+    assert _published_mean_cell(76.7, 80.2, 1).note == "80.2 by its cases"
+    assert _published_mean_cell(76.7, 76.74, 1).note == ""

@@ -36,6 +36,10 @@ ENTRANTS = {
         ),
         ("linear", "trivial"),
     ),
+    **dict.fromkeys(
+        ("motion-prediction", "motion-prediction-8-windows", "motion-prediction-corrected"),
+        ("ridge-forecast", "zero-velocity"),
+    ),
     "missing-frames": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
     "golf-swings": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
     "unseen-walkers": ("lds", "replay"),
