@@ -9,9 +9,9 @@ from .declarations.abilities import ABILITIES, IMPLIED
 from .declarations.needs import NEEDS, Need
 from .fam import FAM
 from .forecasting.neighbours import NeighbourForecast
-from .forecasting.window_process import ProcessForecast
 from .forecasting.ridge import RidgeForecast
 from .forecasting.velocity import ConstantVelocity
+from .forecasting.window_process import ProcessForecast
 from .gp_independent import GPIndependent
 from .gpdm.model import GPDM
 from .gplvm import GPLVM

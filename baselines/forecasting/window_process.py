@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from sklearn.metrics.pairwise import euclidean_distances
 
@@ -23,6 +24,7 @@ _STEPS = ((1, 12.0), (3, 3.0), (9, 1.0))
 """Over how many frames the last pose has moved, and how much each such step counts."""
 _BEND, _BEND_WEIGHT = 4, 2.0
 """Half the frames over which the change of a step is taken, and how much it counts."""
+_SHARE_OF_A_PART = 0.5
 _LEAST_NOISE = 0.2
 """Added to the errors of windows, in shares of their median, before noise follows from them."""
 
@@ -31,10 +33,11 @@ class ProcessForecast(WindowForecaster):
     r"""Predict how the next frames differ from the last one seen, by an exact Gaussian process.
 
     The covariance of two windows is that of a linear function of the last pose and of its steps,
-    plus a rational quadratic one of the distance between them, which has long tails. All outputs
-    share it. A window that the others predict badly, each left out in turn, has more noise: thus
-    the process minimises distances rather than their squares. Where names of channels tell left
-    from right, it learns from the mirror image of every recording too.
+    plus a rational quadratic one of the distance between them, which has long tails, and half of
+    one such for each part of the body, which may move as in one window while others move as in
+    another. All outputs share it. A window that the others predict badly, each left out in turn,
+    has more noise: thus the process minimises distances rather than their squares. Where names of
+    channels tell left from right, it learns from the mirror image of every recording too.
 
     Windows are taken at intervals so that there are at most ``max_windows``: the cost grows with
     their third power, and memory with their second.
@@ -53,6 +56,9 @@ class ProcessForecast(WindowForecaster):
         Lengthscale of the other part, relative to the same.
     noise : float, default=0.05
         Variance of what no window tells, relative to that of the other part.
+    parts : sequence of sequence of str, default=()
+        Of each part of the body, words of which one is in the name of a channel that belongs to
+        it, such as ``(("Leg", "Foot"), ("Arm", "Hand"))``.
 
     Attributes
     ----------
@@ -66,9 +72,10 @@ class ProcessForecast(WindowForecaster):
     .. math::
 
         k(x, x') = \frac{x^\top x'}{a^2 S} + \frac{1}{1 + \|x - x'\|^2 / 2 \ell^2 S}
+        + \frac12 \sum_p \frac{1}{1 + \|x_p - x'_p\|^2 / 2 \ell^2 S_p}
 
-    and the noise of window i is proportional to its error :math:`[K^{-1} Z]_i / [K^{-1}]_{ii}` when
-    it alone is left out.
+    with :math:`x_p` the channels of part p, and the noise of window i is proportional to its error
+    :math:`[K^{-1} Z]_i / [K^{-1}]_{ii}` when it alone is left out.
 
     References
     ----------
@@ -99,6 +106,7 @@ class ProcessForecast(WindowForecaster):
         linear: float = 1.5,
         length: float = 1.2,
         noise: float = 0.05,
+        parts: Sequence[Sequence[str]] = (),
     ) -> None:
         self.n_seen = n_seen
         self.n_ahead = n_ahead
@@ -106,11 +114,13 @@ class ProcessForecast(WindowForecaster):
         self.linear = linear
         self.length = length
         self.noise = noise
+        self.parts = parts
 
     def _check_parameters(self) -> None:
         check_count("max_windows", self.max_windows, 1)
         for name in ("linear", "length", "noise"):
             check_positive(name, getattr(self, name))
+        _check_parts(self.parts)
 
     def _prepare(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
         """Return the recordings and their mirror images."""
@@ -122,15 +132,15 @@ class ProcessForecast(WindowForecaster):
         seen, ahead = seen[::step], ahead[::step]
         steps = _describe_steps(seen)
         self._centre = steps.mean(axis=0)
-        spread = float(((steps - self._centre) ** 2).sum(axis=1).mean())
-        self._scale = np.sqrt(spread or 1.0)
-        self._known = (steps - self._centre) / self._scale
+        self._columns = _find_columns(self.channels_, self.parts, steps.shape[1])
+        self._spreads = [_find_spread(steps[:, columns]) for columns in self._columns]
+        self._known = steps - self._centre
         apart = leave_last_frame(seen, ahead)
         noise = self.noise * self._find_errors(apart)
         self._weights = cho_solve(cho_factor(self._covariance_of_known(noise), lower=True), apart)
 
     def _predict(self, seen: WindowByFrameByChannel) -> WindowByFrameByChannel:
-        steps = (_describe_steps(seen) - self._centre) / self._scale
+        steps = _describe_steps(seen) - self._centre
         apart = self._covariance(steps, self._known) @ self._weights
         return np.asarray(seen[:, -1:] + apart.reshape(len(seen), self.n_ahead, -1))
 
@@ -148,12 +158,48 @@ class ProcessForecast(WindowForecaster):
         return covariance
 
     def _covariance(self, one: Array, other: Array) -> Array:
-        covariance = np.asarray(euclidean_distances(one, other, squared=True))
-        covariance /= 2.0 * self.length**2
-        covariance += 1.0
-        np.reciprocal(covariance, out=covariance)
-        covariance += (one / self.linear**2) @ other.T
-        return covariance
+        whole, *parts = (
+            _relate_windows(one[:, columns], other[:, columns], self.length * spread)
+            for columns, spread in zip(self._columns, self._spreads, strict=True)
+        )
+        for part in parts:
+            whole += _SHARE_OF_A_PART * part
+        whole += (one / (self.linear * self._spreads[0]) ** 2) @ other.T
+        return whole
+
+
+def _relate_windows(one: Array, other: Array, length: float) -> Array:
+    """Return the rational quadratic covariance of windows."""
+    covariance = np.asarray(euclidean_distances(one, other, squared=True))
+    covariance /= 2.0 * length**2
+    covariance += 1.0
+    return np.reciprocal(covariance, out=covariance)
+
+
+def _find_spread(steps: Array) -> float:
+    """Return the root of the mean squared distance of windows from their mean."""
+    return float(np.sqrt(steps.var(axis=0).sum())) or 1.0
+
+
+def _find_columns(
+    channels: Sequence[str], parts: Sequence[Sequence[str]], n_columns: int
+) -> list[NDArray[np.bool_]]:
+    """Return which columns (5 D,) are of the whole body, and which of each part that is there."""
+    belongs = [[any(word in name for word in words) for name in channels] for words in parts]
+    repeated = [np.tile(part, n_columns // len(channels)) for part in belongs if any(part)]
+    return [np.full(n_columns, True), *repeated]
+
+
+def _check_parts(parts: object) -> None:
+    """Raise ValueError unless it lists words for each part."""
+    listed = isinstance(parts, list | tuple) and all(
+        isinstance(words, list | tuple) and words and all(isinstance(word, str) for word in words)
+        for words in parts
+    )
+    if not listed:
+        raise ValueError(
+            f"expected parts to be a list of words for each part of the body, got {parts!r}"
+        )
 
 
 def _describe_steps(seen: WindowByFrameByChannel) -> Array:

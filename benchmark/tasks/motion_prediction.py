@@ -41,6 +41,7 @@ __all__ = [
     "ACTIONS",
     "N_AHEAD",
     "N_SEEN",
+    "PARTS",
     "RotatedBody",
     "motion_prediction",
     "motion_prediction_8_windows",
@@ -53,6 +54,8 @@ STEP = 2  # every second row of a file is kept: 60 of 120 frames a second
 ACTIONS = tuple(
     dict.fromkeys(key.partition("/")[2].rpartition("_")[0] for key in original_recordings())
 )
+PARTS = (("Leg", "Foot", "Toe"), ("Arm", "Hand", "Thumb"))
+"""Words in the names of joints of the legs and of the arms."""
 TRAINING = tuple(f"rotations:{key}" for key in original_recordings() if key.startswith("train/"))
 OVER_4_MIB = (
     *("rotations:train/directing_traffic_2", "rotations:train/directing_traffic_3"),
@@ -240,7 +243,10 @@ def _build_task(name: str, page: TaskPage) -> Task:
         page=page,
         requires={"continues recordings", "fills new recordings"},
         cases=cases,
-        entrants=(Entrant("zero-velocity", "hold"),),
+        entrants=(
+            Entrant("zero-velocity", "hold"),
+            Entrant("gp-forecast", "gp-forecast", {"parts": PARTS}),
+        ),
         profiles={
             "smoke": Profile((synthetic,), 1, {"max_iter": 2}, (*_OTHERS, "lds")),
             "paper": Profile(tuple(names[: len(ACTIONS)]), 1, {}, _OTHERS),
