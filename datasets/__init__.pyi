@@ -41,6 +41,7 @@ from .process import Layer, ToyProcess
 from .recording import FrameByChannel, Frames, Mask, Recording
 from .rotations.body import (
     PREDICTED,
+    coincident_joints,
     complete_joints,
     place_rotated_joints,
     rotation_skeleton,
@@ -94,6 +95,7 @@ __all__ = [
     "TruncatedFrameWarning",
     "UnregisteredDigestWarning",
     "check_alike",
+    "coincident_joints",
     "complete_joints",
     "format_motion",
     "format_skeleton",

@@ -173,7 +173,7 @@ def _relate_windows(one: Array, other: Array, length: float) -> Array:
     covariance = np.asarray(euclidean_distances(one, other, squared=True))
     covariance /= 2.0 * length**2
     covariance += 1.0
-    return np.reciprocal(covariance, out=covariance)
+    return np.asarray(np.reciprocal(covariance, out=covariance))
 
 
 def _find_spread(steps: Array) -> float:

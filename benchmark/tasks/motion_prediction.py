@@ -29,6 +29,7 @@ from mocapbench.datasets import (
     FrameByJointBy3,
     Recording,
     Skeleton,
+    coincident_joints,
     complete_joints,
     original_recordings,
     place_rotated_joints,
@@ -120,13 +121,9 @@ class RotatedBody:
 
     def dependence(self, channels: Sequence[str]) -> JointByChannel:
         """Return True where the channel is a coordinate of the joint or one that coincides."""
-        where = self.positions(
-            Recording("", [0.0], np.zeros((1, len(channels))), channels, channels)
-        )
-        moved = np.eye(len(channels))
-        times = np.arange(len(channels))
-        shifted = self.positions(Recording("", times, moved, channels, channels))
-        return np.asarray((shifted != where).any(axis=2).T)
+        owners = [channel.partition(".")[0] for channel in channels]
+        shown_by = [PREDICTED[joint] if joint >= 0 else "" for joint in coincident_joints()]
+        return np.array([[owner == name for owner in owners] for name in shown_by])
 
 
 def motion_prediction_problem(

@@ -104,7 +104,8 @@ def _rotate(vectors: Array) -> Array:
     x, y, z = np.moveaxis(vectors / (angles[..., 0] + _NOT_ZERO), -1, 0)
     zero = np.zeros_like(x)
     cross = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=-1).reshape(*x.shape, 3, 3)
-    return np.eye(3) + np.sin(angles) * cross + (1.0 - np.cos(angles)) * (cross @ cross)
+    matrices = np.eye(3) + np.sin(angles) * cross + (1.0 - np.cos(angles)) * (cross @ cross)
+    return np.asarray(matrices)
 
 
 @cache

@@ -17,6 +17,8 @@ from mocapbench.datasets import (
     rotations_of,
 )
 from mocapbench.metrics.horizons import HORIZONS
+from mocapbench.reports import CaseLayout
+from mocapbench.reports.analysis.units import unit_names
 
 NAMES = ("motion-prediction", "motion-prediction-8-windows", "motion-prediction-corrected")
 SYNTHETIC = "synthetic gait"
@@ -209,3 +211,15 @@ def test_zero_velocity_on_the_contests_files_is_what_was_computed_elsewhere(name
         for frame, printed in HORIZONS.items()
     }
     assert ours == pytest.approx(computed, abs=1e-4)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_recording_is_one_unit_of_statistics_however_many_windows_it_has(name):
+    task = TASKS.get(name)
+    cases = [task.case(case) for case in task.profile("paper").cases]
+    units = [
+        unit_names(CaseLayout(case.name, {}), [0], independent=task.independent_folds)
+        for case in cases
+    ]
+    assert task.max_folds == 1
+    assert len({unit for (unit,) in units}) == len(cases) == 8
