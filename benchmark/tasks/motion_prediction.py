@@ -242,7 +242,7 @@ def _build_task(name: str, page: TaskPage) -> Task:
         cases=cases,
         entrants=(
             Entrant("zero-velocity", "hold"),
-            Entrant("gp-forecast", "gp-forecast", {"parts": PARTS}),
+            Entrant("gp-forecast", "gp-forecast", {"parts": PARTS, "max_windows": 12000}),
         ),
         profiles={
             "smoke": Profile((synthetic,), 1, {"max_iter": 2}, (*_OTHERS, "lds")),

@@ -20,11 +20,16 @@ from typing import ClassVar
 import numpy as np
 
 from mocapbench.datasets.acclaim.motion import FRAME_RATE
+from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.cmu import CMULibrary
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import FrameByChannel, Recording
-from mocapbench.datasets.rotations.body import ROTATION_CHANNELS, ROTATION_UNITS
+from mocapbench.datasets.rotations.body import (
+    ROTATION_CHANNELS,
+    ROTATION_UNITS,
+    rotation_skeleton,
+)
 from mocapbench.datasets.rotations.recipe import rotations_of
 
 __all__ = ["RotationLibrary", "original_recordings"]
@@ -88,6 +93,11 @@ class RotationLibrary(Library):
             return Recording(key, times, values, ROTATION_CHANNELS, ROTATION_UNITS)
         original = original_recordings()[key]
         return rotations_of(self._database.recording(original), self._database.skeleton(original))
+
+    def skeleton(self, key: str) -> Skeleton:
+        """Return the joints and what connects them, which are the same for all."""
+        self._find(key)  # refuses what is no key
+        return rotation_skeleton()
 
     def digest(self, key: str) -> str:
         """Return the SHA-256 of the file's text, or of the recording that it was made from."""

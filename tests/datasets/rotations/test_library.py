@@ -7,6 +7,7 @@ import pytest
 from shared_files import shared
 
 from mocapbench.datasets import (
+    Archive,
     CMULibrary,
     FormatError,
     GaitLibrary,
@@ -46,6 +47,12 @@ def test_a_file_is_found_and_read_at_120_frames_a_second(folder):
     np.testing.assert_array_equal(recording.values, ROWS)
     np.testing.assert_allclose(recording.times, [0, 1 / 120, 2 / 120])
     assert recording.channels[:4] == ("path.x", "path.y", "path.z", "Hips.x")
+
+
+def test_all_have_the_same_joints(folder):
+    write(folder, format_rows(ROWS))
+    archive = Archive({"rotations": RotationLibrary(folder)})
+    assert len(archive.skeleton(f"rotations:{KEY}").segments) == 38
 
 
 def test_a_compressed_file_is_the_same(folder):
