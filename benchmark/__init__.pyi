@@ -1,5 +1,5 @@
 from .archives import archive_at, fetch_command, full_paths, recording_names, require_recordings
-from .catalogue import (
+from .catalogue.entries import (
     entrant_entry,
     format_entry,
     library_entry,
@@ -7,6 +7,7 @@ from .catalogue import (
     model_entry,
     task_entry,
 )
+from .catalogue.listed import list_model, list_task
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
 from .figures.alignment import draw_alignments
@@ -29,7 +30,6 @@ from .inspection.left_out import left_out_lines
 from .inspection.output import explanation_table, state_lines, state_table
 from .inspection.recordings import data_totals, next_data_step
 from .inspection.state import RunState, run_state
-from .listed import list_model, list_task
 from .merging.merge import merge
 from .missing_values import choose_missing_rule
 from .plugins import load_plugin, load_plugins

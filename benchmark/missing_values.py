@@ -274,7 +274,7 @@ def find_held(recording: Recording) -> Iterator[tuple[str, int, int, bool]]:
     masks = recording.visible, _repeat_last(recording.values), recording.values == 0.0
     # By marker (M, 3, N): what is looked at together is close together in memory.
     visible, same, zero = (np.take(mask.T, places, axis=0) for mask in masks)
-    both = visible.all(axis=1)
+    both = np.asarray(visible.all(axis=1))
     both[:, 1:] &= both[:, :-1].copy()
     both[:, :1] = False
     held = both & same.all(axis=1) & ~zero.all(axis=1)

@@ -11,7 +11,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.checks import check_given, check_recordings
-from mocapbench.baselines.common.recordings import by_name, hidden_frames, stretches
+from mocapbench.baselines.common.recordings import by_content, hidden_frames, stretches
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import Forecaster, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
@@ -87,7 +87,7 @@ class WindowForecaster(Forecaster, Inductive):
         self._check_parameters()
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        windows = cut_windows(self._prepare(by_name(checked)), self.n_seen + self.n_ahead)
+        windows = cut_windows(self._prepare(by_content(checked)), self.n_seen + self.n_ahead)
         self._learn(windows[:, : self.n_seen], windows[:, self.n_seen :])
         return self
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from mocapbench.baselines import FrameImputer, Prediction
 from mocapbench.baselines.common.checks import check_given, check_recordings
-from mocapbench.baselines.common.recordings import by_name
+from mocapbench.baselines.common.recordings import by_content
 from mocapbench.basics.numbers import real_numbers
 from mocapbench.basics.temporaries import sweep, temporary_folder
 from mocapbench.benchmark.messages import reason
@@ -41,7 +41,7 @@ class CommandModel(FrameImputer):
     channels_, units_ : tuple of str
         Of the recordings given to `fit`.
     recordings_ : tuple of Recording
-        These recordings in the order of their names; none if the program learns in `fit`.
+        These recordings in the order of their values; none if the program learns in `fit`.
     names_ : frozenset of str
         Their names.
     learnt_ : mapping of str to bytes
@@ -68,7 +68,7 @@ class CommandModel(FrameImputer):
         ProgramError, TimeoutError, MemoryError
             See `mocapbench.benchmark.programs.running.run_program`.
         """
-        checked = by_name(check_recordings(recordings))
+        checked = by_content(check_recordings(recordings))
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.names_ = frozenset(recording.name for recording in checked)
         self.recordings_ = () if self.learns_in_fit else checked

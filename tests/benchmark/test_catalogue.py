@@ -5,7 +5,12 @@ import json
 import pytest
 
 from mocapbench.baselines import ABILITIES, Imputer
-from mocapbench.benchmark.catalogue import entrant_entry, library_entry, model_entry, task_entry
+from mocapbench.benchmark.catalogue.entries import (
+    entrant_entry,
+    library_entry,
+    model_entry,
+    task_entry,
+)
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES, MODELS, TASKS
 from mocapbench.datasets import CMULibrary

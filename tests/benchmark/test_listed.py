@@ -1,12 +1,12 @@
 """What tables say of models and tasks is what these say themselves."""
 
 from mocapbench.baselines import LinearImputer
-from mocapbench.benchmark import listed
+from mocapbench.benchmark.catalogue import listed
 from mocapbench.benchmark.registry import MODELS
 
 
 def test_the_file_says_what_models_and_tasks_do():
-    advice = "run `python -m mocapbench.benchmark.listed` in the clone"
+    advice = "run `python -m mocapbench.benchmark.catalogue.listed` in the clone"
     assert listed.TABLE.read_bytes() == listed.compose_table(), advice
 
 

@@ -19,7 +19,7 @@ from mocapbench.baselines import (
     protocols,
 )
 from mocapbench.baselines.declarations.needs import find_met_needs
-from mocapbench.benchmark.catalogue import model_entry
+from mocapbench.benchmark.catalogue.entries import model_entry
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.candidates import find_candidates, require_candidate
 from mocapbench.benchmark.filling.gap_problem import GapProblem, pose_imputing

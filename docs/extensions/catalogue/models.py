@@ -7,7 +7,7 @@ from typing import Any
 
 from catalogue.docstrings import api_name, described_class
 from catalogue.places import Place, two_digits
-from mocapbench.benchmark.catalogue import model_entry
+from mocapbench.benchmark.catalogue.entries import model_entry
 from mocapbench.benchmark.registry import MODELS, TASKS, build_unfitted
 
 __all__ = ["model_page"]

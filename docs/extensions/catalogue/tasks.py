@@ -10,7 +10,7 @@ from catalogue.figures import ranking_figure
 from catalogue.published import beside, printed
 from catalogue.ranking import case_rows, ranking_basis, ranking_rows
 from catalogue.reference import Today
-from mocapbench.benchmark.catalogue import task_entry
+from mocapbench.benchmark.catalogue.entries import task_entry
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.runs.request import entrants
 from mocapbench.datasets import Archive

@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from mocapbench.benchmark.catalogue import model_entry
+from mocapbench.benchmark.catalogue.entries import model_entry
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.plugins import load_plugin, load_plugins
 from mocapbench.benchmark.registry import MODELS, TASKS

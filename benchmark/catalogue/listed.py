@@ -1,7 +1,7 @@
 """What tables say of each registered model and task, without importing those of mocapbench.
 
 They take seconds to import, so that what they say stands in a file besides, which
-``python -m mocapbench.benchmark.listed`` writes anew. Those of plug-ins are imported.
+``python -m mocapbench.benchmark.catalogue.listed`` writes anew. Those of plug-ins are imported.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def _read_table() -> Mapping[str, Mapping[str, Mapping[str, Any]]]:
 def _describe(how: str) -> Callable[[str], Mapping[str, Any]]:
     """Return a function of the catalogue, which is imported where it is needed alone."""
     describe: Callable[[str], Mapping[str, Any]] = getattr(
-        import_module("mocapbench.benchmark.catalogue"), how
+        import_module("mocapbench.benchmark.catalogue.entries"), how
     )
     return describe
 
