@@ -41,7 +41,8 @@ class CommandModel(FrameImputer):
     channels_, units_ : tuple of str
         Of the recordings given to `fit`.
     recordings_ : tuple of Recording
-        These recordings in the order of their values; none if the program learns in `fit`.
+        These recordings in an order that does not depend on the one in which they were given; none
+        if the program learns in `fit`.
     names_ : frozenset of str
         Their names.
     learnt_ : mapping of str to bytes
