@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
-from mocapbench.baselines.common.heading import turn_ahead, turn_back
+from mocapbench.baselines.common.heading import face_ahead, face_as_before
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import by_content, visible_frames, with_steps
 from mocapbench.baselines.common.validation import (
@@ -192,7 +192,7 @@ class PoseKriging(FrameImputer, Inductive):
         check_share("least_explained", self.least_explained)
         checked = by_content(check_recordings(recordings))
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        ahead = [turn_ahead(recording)[0] for recording in checked]
+        ahead = [face_ahead(recording)[0] for recording in checked]
         self.directions_ = mean_directions(ahead)
         usable = [in_pose_units(self._wrap_angles(one)) for one in with_steps(ahead)]
         self.names_ = tuple(recording.name for recording in usable)
@@ -226,11 +226,11 @@ class PoseKriging(FrameImputer, Inductive):
         return recording.with_values(recording.values - away)
 
     def _predict(self, recording: Recording) -> Prediction:
-        ahead, heading = turn_ahead(recording)
+        ahead, heading = face_ahead(recording)
         away = wrapping_offsets(ahead, self.directions_)
         near = ahead.with_values(ahead.values - away)
         found = from_pose_units(near, *self._fill_frames(in_pose_units(near)))
-        return turn_back(recording, found.mean + away, found.variance, heading)
+        return face_as_before(recording, found.mean + away, found.variance, heading)
 
     def _fill_frames(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the mean and variance (N, D) of all frames given the visible ones."""

@@ -22,7 +22,7 @@ from mocapbench.baselines.protocols import Prediction
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["turn_ahead", "turn_back"]
+__all__ = ["face_ahead", "face_as_before"]
 
 
 _ANGLES = ("root.ry", "root.rx", "root.rz")
@@ -33,7 +33,7 @@ _STEP = 1e-4
 """Radians by which angles are changed to see what follows from them."""
 
 
-def turn_ahead(recording: Recording) -> tuple[Recording, float]:
+def face_ahead(recording: Recording) -> tuple[Recording, float]:
     """Return a recording turned so that its mean heading is ahead, and that heading in radians.
 
     A recording without the rotation of a root, in degrees, is returned as it is. Where a part of
@@ -52,14 +52,14 @@ def turn_ahead(recording: Recording) -> tuple[Recording, float]:
     values[:, angles] = np.nan
     values[np.ix_(seen, angles)] = np.degrees(turned)
     for path in _find_paths(recording):
-        values[:, path] = _turn_path(values[:, path], -heading)
+        values[:, path] = _rotate_path(values[:, path], -heading)
     return recording.with_values(values), heading
 
 
-def turn_back(
+def face_as_before(
     recording: Recording, mean: FrameByChannel, variance: FrameByChannel | None, heading: float
 ) -> Prediction:
-    """Return the prediction of a recording from that of what `turn_ahead` made of it.
+    """Return the prediction of a recording from that of what `face_ahead` made of it.
 
     Of the two ways to write a rotation as three angles, and of those that differ by multiples of
     360°, the one is taken that is nearest to the angles that are visible before and after.
@@ -75,7 +75,7 @@ def turn_back(
     slopes = _slopes(ahead)
     paths, variance = _find_paths(recording), None if variance is None else variance.copy()
     for path in paths:
-        mean[:, path] = _turn_path(mean[:, path], heading)
+        mean[:, path] = _rotate_path(mean[:, path], heading)
     if variance is not None:
         variance[place] = np.einsum("nij,nj->ni", slopes**2, variance[place])
         for path in paths:
@@ -107,7 +107,7 @@ def _rotation(angle: float) -> Array:
     return np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
 
 
-def _turn_path(path: FrameByChannel, angle: float) -> FrameByChannel:
+def _rotate_path(path: FrameByChannel, angle: float) -> FrameByChannel:
     return np.asarray(path @ _rotation(angle).T)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from sklearn.base import clone
 
 from mocapbench.baselines import ABILITIES, IMPLIED, NEEDS, Model
-from mocapbench.benchmark.testing import abilities, imputers, layers, turns
+from mocapbench.benchmark.testing import abilities, facing, imputers, layers
 from mocapbench.benchmark.testing.errors import (
     global_randomness_untouched,
     raised_by,
@@ -161,7 +161,7 @@ _OF_ABILITY: Mapping[str, tuple[ModelCheck, ...]] = {
     ),
     "fills entries": (imputers.fills_any_mask,),
     "interpolates": (imputers.fills_channels_apart,),
-    "turns along": (turns.turns_along_with_motion,),
+    "turns along": (facing.fills_alike_however_it_faces,),
     "draws samples": (abilities.draws_samples,),
     "clusters": (abilities.clusters_every_recording, abilities.makes_one_cluster_of_one_style),
     "aligns": (abilities.aligns_every_frame,),

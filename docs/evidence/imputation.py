@@ -5,7 +5,7 @@
     python docs/evidence/imputation.py walkers # pose-kriging, each training walker left out in turn
     python docs/evidence/imputation.py tasks   # both on the tasks themselves, with seconds
     python docs/evidence/imputation.py frames  # channel-kriging, its learning frames drawn anew
-    python docs/evidence/imputation.py turns   # pose-kriging, the tests' motion turned about
+    python docs/evidence/imputation.py headings # pose-kriging, the tests' motion turned about
 
 All but `walkers` use the tests of `missing-frames` and `subject-35-missing`, which choose nothing.
 """
@@ -34,7 +34,7 @@ from mocapbench.benchmark.tasks.missing_frames import (
     N_TEST_FRAMES,
     TRAINING,
 )
-from mocapbench.benchmark.testing.turns import turn_motion
+from mocapbench.benchmark.testing.facing import rotate_motion
 from mocapbench.datasets import Recording, RecordingUnavailable, gpdm_features, one_based_frames
 from mocapbench.metrics import Imputation, coverage_95, rms_per_frame
 
@@ -164,7 +164,7 @@ def _spread_anew(shift: np.random.Generator, places: Array, number: int) -> Arra
     return places[((np.arange(number) + shift.random()) * len(places) / number).astype(int)]
 
 
-def turns() -> None:
+def headings() -> None:
     """Print the scores of `PoseKriging` where the recording to fill is turned."""
     rows = ("35-03", "16-21", "07-01", "07-02", "08-01", "08-02")
     names = [f"{row} three-walkers" for row in rows]
@@ -172,17 +172,17 @@ def turns() -> None:
         problems = [_posed("missing-frames", name, fold) for name in names for fold in range(12)]
         scores = []
         for problem in problems:
-            moved = _turn_problem(problem, degrees)
+            moved = _rotate_problem(problem, degrees)
             outcome = _outcome(moved, PoseKriging().fit(moved.train))
             scores.append([METRICS.get(name)(outcome).value for name in ("rms_per_frame", "mpjpe")])
         print(f"{degrees:g}°", np.round(np.mean(scores, axis=0), 3), flush=True)
 
 
-def _turn_problem(problem: ImputeProblem, degrees: float) -> ImputeProblem:
+def _rotate_problem(problem: ImputeProblem, degrees: float) -> ImputeProblem:
     (given,), (truth,) = problem.given, problem.truth
-    turned = turn_motion(given.with_values(truth), degrees)
+    turned = rotate_motion(given.with_values(truth), degrees)
     return replace(problem, given=(turned.hide(~given.visible),), truth=(turned.values,))
 
 
 if __name__ == "__main__":
-    {"walkers": walkers, "tasks": tasks, "frames": frames, "turns": turns}[sys.argv[1]]()
+    {"walkers": walkers, "tasks": tasks, "frames": frames, "headings": headings}[sys.argv[1]]()

@@ -13,18 +13,18 @@ from mocapbench.benchmark.testing.errors import require
 from mocapbench.benchmark.testing.subject import Subject
 from mocapbench.datasets import Recording, joint_positions, open_archive
 
-__all__ = ["turn_motion", "turns_along_with_motion"]
+__all__ = ["fills_alike_however_it_faces", "rotate_motion"]
 
 _WALKS = ("gait:01_01", "gait:02_01", "gait:03_01")
 """Generated walkers, of whom the last one is filled."""
-_TURNS = (90.0, 180.0, -37.0)
+_DEGREES = (90.0, 180.0, -37.0)
 _AWAY = np.array([40.0, 0.0, -70.0])
 """How far a motion is moved over the ground, in the unit of the root's path."""
 _MOST = 0.01
 """What turns may change, as a share of the error."""
 
 
-def turns_along_with_motion(subject: Subject) -> None:
+def fills_alike_however_it_faces(subject: Subject) -> None:
     """Check that a motion that is turned about the vertical, and moved, is filled alike."""
     *training, walk = _walks()
     model, gap = subject.fit_model(training), np.zeros(walk.values.shape, dtype=bool)
@@ -32,9 +32,9 @@ def turns_along_with_motion(subject: Subject) -> None:
     joints = _place_joints(walk)
     filled = _place_joints(_fill(model, walk, gap))
     error = float(np.sqrt(np.mean((filled - joints)[15:30] ** 2)))
-    for degrees in _TURNS:
+    for degrees in _DEGREES:
         about = Rotation.from_euler("y", degrees, degrees=True)
-        moved = turn_motion(walk, degrees, _AWAY)
+        moved = rotate_motion(walk, degrees, _AWAY)
         turned = _place_joints(_fill(model, moved, gap))
         # The joints of the turned motion less their own truth, turned back.
         change = about.inv().apply((turned - _place_joints(moved)).reshape(-1, 3))
@@ -47,7 +47,7 @@ def turns_along_with_motion(subject: Subject) -> None:
         )
 
 
-def turn_motion(recording: Recording, degrees: float, away: Array | float = 0.0) -> Recording:
+def rotate_motion(recording: Recording, degrees: float, away: Array | float = 0.0) -> Recording:
     """Return a complete motion of the Acclaim format turned about the y axis, its path shifted."""
     values, names = recording.values.copy(), recording.channels
     about = Rotation.from_euler("y", degrees, degrees=True)
