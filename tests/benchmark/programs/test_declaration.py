@@ -25,6 +25,9 @@ max_frames = 500
 """
 
 
+FRAMES = {"fills frames", "fills entries", "continues recordings"}
+
+
 def find_key(name="mine"):
     task = TASKS.get("toy-interpolation-1")
     seeds = Seeds(0, Address(task.name, task.version, "test 1", 0, name))
@@ -40,7 +43,7 @@ def test_it_says_what_the_model_is(declare):
     assert entry["source"] == "Author and Writer 2020"
     assert entry["family"] == "Interpolation"
     model = MODELS.get("mine")()
-    assert model.provides == {"fills frames", "fills entries", "interpolates"}
+    assert model.provides == {*FRAMES, "interpolates"}
     assert model.needs == {"coordinates"}
     assert model.max_frames == 500
 
@@ -49,7 +52,7 @@ def test_what_it_leaves_out_has_a_default(tmp_path):
     (tmp_path / "my.toml").write_text('name = "mine"\ncommand = ["sh", "-c", "exit 1", "sh"]')
     load_plugin(tmp_path / "my.toml")
     model = MODELS.get("mine")()
-    assert model.provides == {"fills frames", "fills entries"}
+    assert model.provides == FRAMES
     assert (model.exchange, model.learns_in_fit, model.needs) == ("npz", False, frozenset())
     assert model_entry("mine")["summary"] == "The command sh -c 'exit 1' sh."
 
