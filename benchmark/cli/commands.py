@@ -29,7 +29,7 @@ COMMANDS = {
     "compare": "Compare two runs, or two models of one run, by paired folds.",
     "power": "Say which difference how many people can show.",
     "data": "Look for, fetch and verify recordings.",
-    "export": "Write the scores and jobs of the last run as tables.",
+    "export": "Write the scores and jobs of a run, or tables for papers.",
     "list": "List tasks, models, metrics, libraries or formats of files.",
     "info": "Show versions, the machine, and how to cite.",
 }

@@ -61,10 +61,11 @@ def export(
     metrics: Names = None,
     plugin: Plugins = None,
 ) -> None:
-    """Write the scores and jobs of the last run as tables; with --format, tables for papers.
+    """Write the scores and jobs of a run, or tables for papers.
 
-    Scores and jobs are CSV, and Parquet where pyarrow is installed. Tables for papers show means
-    with intervals and tests: one for each task, of what is named, in that order.
+    Of the last run there. Scores and jobs are CSV, and Parquet where pyarrow is installed. With
+    --format, there is a table for each task: means with intervals and tests, of what is named, in
+    that order.
     """
     load_plugins(plugin)
     store, console, folder = bench.RunDirectory(out), LiteralConsole(), to or out

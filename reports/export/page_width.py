@@ -76,4 +76,4 @@ def _column_width(head: Cell, *cells: Cell) -> int:
 
 def _count_letters(cell: Cell) -> int:
     spread = f" ± {cell.spread}" if cell.spread else ""
-    return len(cell.text + spread + cell.mark)
+    return len(cell.text + spread)  # a raised mark goes into the space between columns
