@@ -24,8 +24,8 @@ UNSEEN_WALKERS_PAGE = TaskPage(
     figures=(draw_sampled_motion,),
     remarks=(
         "A person’s references are up to five: the beginnings of the recordings that the "
-        "database’s index calls walks, then what begins five frames later. Walks to learn from are "
-        "of people in the two other groups, one of each person first.",
+        "database’s index calls walks, then what begins five frames later.",
+        "Walks to learn from are of people in the two other groups, one of each person first.",
         "`replay` returns walks of strangers as they are: what a model has to reach.",
     ),
 )
