@@ -61,6 +61,8 @@ def test_numbers_are_those_of_the_page_and_of_the_means(bundle, task):
                     assert (own.mark == "†") == (row.behind.kind == "tied")
                 compared += 1
     assert compared == len(means)
+    rows = [row.label for row in page["rows"] if row.kind != "published"]
+    assert [*dict.fromkeys(means["label"])] == rows
 
 
 def test_a_half_width_is_that_of_the_page_and_the_same_in_latex_and_markdown(bundle):
