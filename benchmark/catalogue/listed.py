@@ -6,13 +6,12 @@ They take seconds to import, so that what they say stands in a file besides, whi
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
-
-import orjson
 
 from mocapbench.benchmark.registry import MODELS, TASKS, Registry
 
@@ -40,7 +39,7 @@ def compose_table() -> bytes:
             (TASKS, _describe("task_summary")),
         )
     }
-    return orjson.dumps(table, option=orjson.OPT_INDENT_2 | orjson.OPT_APPEND_NEWLINE)
+    return (json.dumps(table, ensure_ascii=False, indent=2) + "\n").encode()
 
 
 def _find_listed(registry: Registry[Any], name: str) -> Mapping[str, Any] | None:
@@ -51,7 +50,7 @@ def _find_listed(registry: Registry[Any], name: str) -> Mapping[str, Any] | None
 
 @cache
 def _read_table() -> Mapping[str, Mapping[str, Mapping[str, Any]]]:
-    table: Mapping[str, Mapping[str, Mapping[str, Any]]] = orjson.loads(TABLE.read_bytes())
+    table: Mapping[str, Mapping[str, Mapping[str, Any]]] = json.loads(TABLE.read_bytes())
     return table
 
 
