@@ -58,7 +58,7 @@ def test_what_it_leaves_out_has_a_default(tmp_path):
 
 
 FAULTS = {
-    "unknown key": ('licences = "MIT"', "line 5, key licens: .*did you mean licence"),
+    "unknown key": ('licences = "MIT"', "line 5, key licences: .*did you mean licence"),
     "unknown ability": ('provides = ["fills gaps"]', "key provides: .*got 'fills gaps'; remove it"),
     "ability of Python": (
         'provides = ["clusters"]',
