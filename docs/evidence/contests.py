@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -76,6 +77,7 @@ def seeds() -> Iterator[str]:
     """Yield where the eight windows of each action begin."""
     for action in ACTIONS:
         case = motion_prediction_8_windows.case(f"{action.replace('_', '-')} 35 files")
+        assert isinstance(case.problem, partial)
         few = case.problem.keywords | {"training": ()}
         address = Address("motion-prediction-8-windows", 1, case.name, 0)
         problem = case.problem.func(Seeds(0, address), archive_at(None), **few)

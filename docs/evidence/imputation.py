@@ -161,7 +161,8 @@ def frames() -> None:
 
 def _spread_anew(shift: np.random.Generator, places: Array, number: int) -> Array:
     """Return so many places in a row, each as far from the next, from a random one on."""
-    return places[((np.arange(number) + shift.random()) * len(places) / number).astype(int)]
+    chosen = ((np.arange(number) + shift.random()) * len(places) / number).astype(int)
+    return np.asarray(places[chosen])
 
 
 def headings() -> None:
