@@ -60,7 +60,7 @@ def _mean_distance(outcome: Imputation, *, frame: int) -> Score:
     Raises
     ------
     ValueError
-        If the outcome has no poses.
+        If the outcome has no poses, or fewer frames are hidden at the end of a recording.
 
     Warnings
     --------
@@ -70,6 +70,7 @@ def _mean_distance(outcome: Imputation, *, frame: int) -> Score:
 
     See Also
     --------
+    mpjpe_at_2, mpjpe_at_4, mpjpe_at_8, mpjpe_at_10, mpjpe_at_14, mpjpe_at_25 : The horizons.
     mpjpe : The same over all hidden frames and the joints that something hidden moves, in cm.
 
     Notes
@@ -107,6 +108,11 @@ def _mean_distance(outcome: Imputation, *, frame: int) -> Score:
     >>> mpjpe_at_2(outcome).value
     25.0
     """
+    if not _is_continued(outcome, frame=frame):
+        raise ValueError(
+            f"expected recordings whose last {frame} frames or more are hidden whole, got others; "
+            "score them by mpjpe"
+        )
     ends = np.array([*outcome.poses.starts[1:], len(outcome.hidden)])
     first_hidden = ends - _count_hidden_at_ends(outcome)
     distances = _MM_PER_CM * outcome.poses.errors[first_hidden + frame - 1]

@@ -1,1 +1,1 @@
-"""What is registered, as plain values, and what tables say of it without importing it."""
+"""What is registered, as plain values, and what tables say of it without loading it."""

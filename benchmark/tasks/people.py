@@ -26,12 +26,10 @@ from mocapbench.benchmark.tasks.marker_gaps import (
 from mocapbench.benchmark.tasks.pages.people import (
     IN_BETWEENING,
     IN_BETWEENING_ANGLES,
-    LEARNT,
     LOST_LIMB,
     LOST_LIMB_ANGLES,
     LOST_MARKERS,
     LOST_MARKERS_ANGLES,
-    ask,
 )
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import (
@@ -254,7 +252,7 @@ def _build_case(people: People, values: str, hidden: str, seconds: float, regime
     # To learn from none of others is to learn alone: where curves of others begin.
     learnt_from = "the person" if regime == "own" else "others"
     return Case(
-        _name_case(people, seconds, regime),
+        f"{'synthetic ' if synthetic else ''}{seconds:g} s {regime}",
         partial(
             people_problem,
             people=people,
@@ -269,10 +267,6 @@ def _build_case(people: People, values: str, hidden: str, seconds: float, regime
         given_by_fold=tuple((tested, *training) for tested, training in folds),
         training_by_fold=tuple(" ".join(training) for _, training in folds),
     )
-
-
-def _name_case(people: People, seconds: float, regime: str) -> str:
-    return f"{'synthetic ' if people.library == 'gait' else ''}{seconds:g} s {regime}"
 
 
 def people_tasks(*lists: People) -> dict[str, Task]:
@@ -313,7 +307,6 @@ _PAGES = {
 }
 """By values and what is hidden."""
 _ILLUSTRATED = "1 s 10 strangers"
-_SECONDS_ASKED = 1.0
 IN_QUICK = ("lost-limb",)
 
 N_QUICK, N_PAPER = 12, 30
@@ -332,18 +325,13 @@ def _build_task(name: str, lists: tuple[People, ...], values: str, hidden: str) 
         for regime in _list_regimes(people)
         for seconds in SECONDS
     )
-    asks = {
-        _name_case(people, _SECONDS_ASKED, regime): ask(values, hidden, _SECONDS_ASKED, learnt)
-        for people in lists
-        for regime, learnt in LEARNT.items()
-    }
     n_folds = N_ROUNDS * max(len(people.subjects) for people in lists)
     illustrated = tuple(case.name for case in cases if case.name.endswith(_ILLUSTRATED))
     needs_frames = HIDDEN[hidden] is _choose_all
     return Task(
         name=name,
         version=1,
-        page=replace(_PAGES[values, hidden], illustrated=illustrated, asks=asks),
+        page=replace(_PAGES[values, hidden], illustrated=illustrated),
         requires={"fills frames" if needs_frames else "fills entries", "fills new recordings"},
         cases=cases,
         meets=frozenset({"coordinates"} if values == "positions" else ()),

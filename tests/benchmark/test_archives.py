@@ -10,7 +10,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES
 from mocapbench.datasets import GaitLibrary
 
-LAYOUT = r"subjects/\*/\*\.asf, subjects/\*/\*\.amc"
+LAYOUT = r"subjects/\*/\*\.asf, subjects/\*/\*\.amc, .*"
 
 
 def check(*folders):

@@ -22,7 +22,8 @@ def _published(name):
 def _title(source):
     paper, *place = source.split("-")
     short = {"gpdm": "GPDM", "hlm": "HLM", "lawrence": "Lawrence", "taylor": "Taylor"}
-    return " ".join([short.get(paper, paper), *(part.lstrip("0") for part in place)])
+    name = paper if paper == "thesis" else paper.capitalize()
+    return " ".join([short.get(paper, name), *(part.lstrip("0") for part in place)])
 
 
 @pytest.mark.parametrize("name", sorted({value.task for value in every_value()}))

@@ -10,12 +10,10 @@ from mocapbench.reports.bundle.task_page import TaskPage
 __all__ = [
     "IN_BETWEENING",
     "IN_BETWEENING_ANGLES",
-    "LEARNT",
     "LOST_LIMB",
     "LOST_LIMB_ANGLES",
     "LOST_MARKERS",
     "LOST_MARKERS_ANGLES",
-    "ask",
 ]
 
 _HIDDEN: Mapping[str, tuple[str, str, str]] = {
@@ -38,7 +36,7 @@ _VALUES: Mapping[str, tuple[str, str, tuple[str, ...]]] = {
 }
 """By what recordings hold: the end of the title, what it is in a sentence, the metrics."""
 
-LEARNT: Mapping[str, str] = {
+_LEARNT: Mapping[str, str] = {
     "alone": "the recording alone",
     "own": "three others of the person",
     "10 strangers": "10 of strangers",
@@ -46,16 +44,14 @@ LEARNT: Mapping[str, str] = {
 """What models learn from in what the first screen asks."""
 
 
-def ask(values: str, hidden: str, seconds: float, learnt: str) -> str:
-    """Return what a case asks, by the keys of `_VALUES` and `_HIDDEN`.
-
-    Examples
-    --------
-    >>> ask("positions", "a limb", 1.0, "10 of strangers")
-    'A limb lost for 1 s, learnt from 10 of strangers'
-    """
+def _ask(values: str, hidden: str) -> Mapping[str, str]:
+    """Return what cases of a second ask, recordings of people or generated walkers."""
     what, measured = hidden.capitalize(), " (angles)" if values == "angles" else ""
-    return f"{what} lost for {seconds:g} s{measured}, learnt from {learnt}"
+    return {
+        f"{made}1 s {regime}": f"{what} lost for 1 s{measured}, learnt from {learnt}"
+        for made in ("", "synthetic ")
+        for regime, learnt in _LEARNT.items()
+    }
 
 
 def _describe_page(values: str, hidden: str) -> TaskPage:
@@ -72,6 +68,7 @@ def _describe_page(values: str, hidden: str) -> TaskPage:
         ),
         question=question,
         metrics=metrics,
+        asks=_ask(values, hidden),
         along=("recordings", "seconds"),
         figures=(draw_filled_motion,),
         remarks=(

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from catalogue.reference import Stored, Today
 from mocapbench.benchmark.inspection.work import alike, typical
 from mocapbench.benchmark.tasks.address import Address
+from mocapbench.reports.analysis.standings import Place as Lead
 from mocapbench.reports.analysis.standings import Standing, standings
-from mocapbench.reports.front.answers import TESTED
 from mocapbench.reports.front.scoreboard import (
     SHADES,
     WORSE,
@@ -124,7 +124,8 @@ def _metric(stored: Stored) -> str:
 
 
 def _finding(own: Standing | None) -> str:
-    return own.standing.value if own and own.standing in TESTED else ""
+    tested = own is not None and own.standing in (Lead.BEHIND, Lead.INSEPARABLE)
+    return own.standing.value if own is not None and tested else ""
 
 
 def _seconds(stored: Stored, label: str) -> float | None:

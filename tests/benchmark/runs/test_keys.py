@@ -143,6 +143,7 @@ FIT_PATH = [
     ("baselines.common.ascent", "missing-frames", "lds"),
     ("baselines.common.cholesky", "toy-interpolation-1", "mohgp"),
     ("basics.mask_runs", "missing-frames", "knn"),
+    ("baselines.common.heading", "missing-frames", "pose-kriging"),
     ("baselines.common.markers", "marker-gaps", "rigid-body"),
     ("baselines.common.rigid", "marker-gaps", "marker-kriging"),
     ("baselines.common.pose_units", "missing-frames", "pose-viterbi"),

@@ -47,8 +47,10 @@ def test_generated_gait_stands_in_for_recordings_but_not_among_the_rows_of_the_p
     task = TASKS.get(name)
     of_paper = {case.name for case in task.cases if not case.synthetic}
     chosen = set(task.profile("paper").cases)
-    # Those of many people are of no paper, and have more rows than one can wait for.
-    assert chosen < of_paper if name.removesuffix("-angles") in NAMES else chosen == of_paper
+    # Those of many people are of no paper, and have more rows than one can wait for; the contest of
+    # motion prediction has rows besides that do without its largest files.
+    fewer = name.removesuffix("-angles") in NAMES or name.startswith("motion-prediction")
+    assert chosen < of_paper if fewer else chosen == of_paper
     for profile in {"smoke", "quick"} & {*task.profiles}:
         chosen = [task.case(case) for case in task.profile(profile).cases]
         assert any(case.synthetic or not case.recordings for case in chosen)
