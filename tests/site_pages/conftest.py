@@ -1,6 +1,7 @@
 """The generated pages, as text, and tables read back from them."""
 
 import re
+from contextlib import contextmanager
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -19,19 +20,27 @@ def goldens():
     return ROOT / "tests" / "goldens" / "metrics"
 
 
-@pytest.fixture(scope="session")
-def without_recordings(tmp_path_factory):
-    """Make this a machine without recordings."""
+@contextmanager
+def leave_out_recordings(cache):
+    """Make this a machine without recordings, for as long as the context lasts."""
     with pytest.MonkeyPatch.context() as patch:
         patch.delenv("MOCAPBENCH_DATA", raising=False)
-        patch.setenv("MOCAPBENCH_CACHE", str(tmp_path_factory.mktemp("cache")))
+        patch.setenv("MOCAPBENCH_CACHE", str(cache))
+        yield
+
+
+@pytest.fixture
+def without_recordings(tmp_path):
+    """Make this a machine without recordings."""
+    with leave_out_recordings(tmp_path):
         yield
 
 
 @pytest.fixture(scope="session")
-def texts(goldens, without_recordings):
+def texts(goldens, tmp_path_factory):
     """Return the texts of all pages, by kind and name."""
-    return import_module("catalogue.site").pages(goldens)
+    with leave_out_recordings(tmp_path_factory.mktemp("cache")):
+        return import_module("catalogue.site").pages(goldens)
 
 
 @pytest.fixture(scope="session")
