@@ -56,7 +56,7 @@ class LGSSM(Clusterer):
     labels_ : ndarray of int, shape (K,)
         The cluster of each recording.
     mixture_ : Mixture
-        The components, for standardised channels; its recordings are in the order `by_content`.
+        The components, for standardised channels; its recordings are in the order of their values.
     objective_ : ndarray of shape (n_iterations + 1,)
         The objective of classification EM at the start and after each iteration.
     restart_objectives_ : ndarray of shape (n_restarts,)

@@ -27,7 +27,7 @@ def paper_tables(
     labels: Sequence[str] = (),
     metrics: Sequence[str] = (),
 ) -> tuple[pd.DataFrame, list[Table]]:
-    """Return the means of what is chosen (`mocapbench.reports.export.means`), and their tables.
+    """Return the means of what is chosen, and tables of them.
 
     Parameters
     ----------
