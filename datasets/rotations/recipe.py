@@ -39,7 +39,7 @@ def rotations_of(recording: Recording, skeleton: Skeleton) -> Recording:
     Returns
     -------
     Recording
-        N + 1 frames of `ROTATION_CHANNELS`. The first is the rest pose, at the root's first
+        N + 1 frames of ``ROTATION_CHANNELS``. The first is the rest pose, at the root's first
         position, one frame before the others.
 
     Raises
