@@ -1,6 +1,7 @@
 """Commands take part in `run`, `fill` and `check-model`, and end when their job does."""
 
 import csv
+import os
 import re
 
 import psutil
@@ -10,10 +11,11 @@ from shell_models import ONES
 
 pytestmark = pytest.mark.slow
 
+LONG = f"{600 + os.getpid() / 10**7:.7f}"  # of no other worker of the tests
 SCRIPTS = {
     "good": ONES,
-    "waits": "echo at step 1 >&2; exec sleep 607",
-    "leaves": f"{ONES}sleep 607 & exit 0",
+    "waits": f"echo at step 1 >&2; exec sleep {LONG}",
+    "leaves": f"{ONES}sleep {LONG} & exit 0",
     "dies": "echo no licence >&2; exit 3",
     "takes": "echo learning >&2; exec tail /dev/zero",
 }
@@ -47,7 +49,7 @@ def commands(tmp_path):
 
 
 def find_sleepers():
-    return [p for p in psutil.process_iter(["cmdline"]) if p.info["cmdline"] == ["sleep", "607"]]
+    return [p for p in psutil.process_iter(["cmdline"]) if p.info["cmdline"] == ["sleep", LONG]]
 
 
 def find_times(run):
