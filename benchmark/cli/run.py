@@ -27,6 +27,7 @@ from mocapbench.benchmark.cli.running.log import require_log, run_log
 from mocapbench.benchmark.cli.running.messages import downloading, fetching
 from mocapbench.benchmark.cli.running.session import Session
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.runs.execution.scratch import sweep_scratch
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Job, Request
@@ -110,6 +111,7 @@ def run(
         folds,
         seed,
     )
+    sweep_scratch()  # here, since a killed run may have finished all, so that no worker starts
     archive = open_archive(data_dir, task_files)
     if not (offline or dry_run):
         fetch_missing(archive, bench.required_recordings(request, archive), console)
