@@ -6,8 +6,11 @@ import numpy as np
 from sklearn.neighbors import NearestNeighbors
 
 from mocapbench.baselines.common.validation import check_count, check_share
-from mocapbench.baselines.forecasting.ridge import describe_windows
-from mocapbench.baselines.forecasting.windows import WindowByFrameByChannel, WindowForecaster
+from mocapbench.baselines.forecasting.windows import (
+    WindowByFrameByChannel,
+    WindowForecaster,
+    describe_windows,
+)
 from mocapbench.basics.arrays import Array
 
 __all__ = ["NeighbourForecast"]

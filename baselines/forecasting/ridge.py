@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-import numpy as np
 from sklearn.linear_model import Ridge
 
 from mocapbench.baselines.common.validation import check_positive
-from mocapbench.baselines.forecasting.windows import WindowByFrameByChannel, WindowForecaster
-from mocapbench.basics.arrays import Array
+from mocapbench.baselines.forecasting.windows import (
+    WindowByFrameByChannel,
+    WindowForecaster,
+    describe_windows,
+    follow_last_frame,
+    leave_last_frame,
+)
 
-__all__ = ["RidgeForecast", "describe_windows", "leave_last_frame"]
-
-
-def describe_windows(seen: WindowByFrameByChannel) -> Array:
-    """Return the last frame, and how far the others are from it: (W, n_seen D)."""
-    last = seen[:, -1]
-    apart = seen[:, :-1] - last[:, None]
-    return np.concatenate([last, apart.reshape(len(seen), -1)], axis=1)
-
-
-def leave_last_frame(seen: WindowByFrameByChannel, ahead: WindowByFrameByChannel) -> Array:
-    """Return how far the next frames are from the last one seen: (W, n_ahead D)."""
-    return np.asarray((ahead - seen[:, -1:]).reshape(len(ahead), -1))
+__all__ = ["RidgeForecast"]
 
 
 class RidgeForecast(WindowForecaster):
@@ -81,5 +73,4 @@ class RidgeForecast(WindowForecaster):
         self._regression = regression.fit(describe_windows(seen), leave_last_frame(seen, ahead))
 
     def _predict(self, seen: WindowByFrameByChannel) -> WindowByFrameByChannel:
-        apart = self._regression.predict(describe_windows(seen))
-        return np.asarray(seen[:, -1:] + apart.reshape(len(seen), self.n_ahead, -1))
+        return follow_last_frame(seen, self._regression.predict(describe_windows(seen)))

@@ -12,8 +12,12 @@ from sklearn.metrics.pairwise import euclidean_distances
 
 from mocapbench.baselines.common.cholesky import invert
 from mocapbench.baselines.common.validation import check_count, check_positive
-from mocapbench.baselines.forecasting.ridge import leave_last_frame
-from mocapbench.baselines.forecasting.windows import WindowByFrameByChannel, WindowForecaster
+from mocapbench.baselines.forecasting.windows import (
+    WindowByFrameByChannel,
+    WindowForecaster,
+    follow_last_frame,
+    leave_last_frame,
+)
 from mocapbench.baselines.kriging.mirror_images import mirror_image
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
@@ -141,8 +145,7 @@ class ProcessForecast(WindowForecaster):
 
     def _predict(self, seen: WindowByFrameByChannel) -> WindowByFrameByChannel:
         steps = _describe_steps(seen) - self._centre
-        apart = self._covariance(steps, self._known) @ self._weights
-        return np.asarray(seen[:, -1:] + apart.reshape(len(seen), self.n_ahead, -1))
+        return follow_last_frame(seen, self._covariance(steps, self._known) @ self._weights)
 
     def _find_errors(self, apart: Array) -> Array:
         """Return the error (W,) of each window when it is left out, relative to their median."""

@@ -14,9 +14,18 @@ from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.recordings import by_content, hidden_frames, stretches
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import Forecaster, Inductive, Prediction
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["WindowByFrameByChannel", "WindowForecaster", "count_ahead", "cut_windows"]
+__all__ = [
+    "WindowByFrameByChannel",
+    "WindowForecaster",
+    "count_ahead",
+    "cut_windows",
+    "describe_windows",
+    "follow_last_frame",
+    "leave_last_frame",
+]
 
 WindowByFrameByChannel = NDArray[np.float64]
 """(W, N, D) W windows of N frames."""
@@ -55,6 +64,24 @@ def count_ahead(recording: Recording) -> int:
             "others; use a model that fills any gaps"
         )
     return int(hidden.sum())
+
+
+def describe_windows(seen: WindowByFrameByChannel) -> Array:
+    """Return the last frame, and how far the others are from it: (W, n_seen D)."""
+    last = seen[:, -1]
+    apart = seen[:, :-1] - last[:, None]
+    return np.concatenate([last, apart.reshape(len(seen), -1)], axis=1)
+
+
+def leave_last_frame(seen: WindowByFrameByChannel, ahead: WindowByFrameByChannel) -> Array:
+    """Return how far the next frames are from the last one seen: (W, n_ahead D)."""
+    return np.asarray((ahead - seen[:, -1:]).reshape(len(ahead), -1))
+
+
+def follow_last_frame(seen: WindowByFrameByChannel, apart: Array) -> WindowByFrameByChannel:
+    """Return the next frames (W, n_ahead, D) that `leave_last_frame` made ``apart`` of."""
+    windows, _, n_channels = seen.shape
+    return np.asarray(seen[:, -1:] + apart.reshape(windows, -1, n_channels))
 
 
 class WindowForecaster(Forecaster, Inductive):
