@@ -33,12 +33,7 @@ _ROUNDING = 1e-6
 
 def continues_recordings(subject: Subject) -> None:
     """Check that the frames after the last visible one are filled, the same from the same seed."""
-    recordings = problem(END)
-    one, two = (
-        _fill_recordings(subject.fit_model(recordings), [recordings[-1]])[0].mean for _ in range(2)
-    )
-    advice = "take all randomness from random_state"
-    require_equal(one, two, "the same answer from the same seed", advice)
+    _require_repetition(subject, problem(END))
 
 
 def fills_whole_frames(subject: Subject) -> None:
@@ -67,7 +62,11 @@ def fills_channels_apart(subject: Subject) -> None:
 
 def repeats_itself(subject: Subject) -> None:
     """Check that the same seed gives the same answer."""
-    recordings = problem(GAP)
+    _require_repetition(subject, problem(GAP))
+
+
+def _require_repetition(subject: Subject, recordings: Sequence[Recording]) -> None:
+    """Require that two fits with the same seed fill the last recording alike."""
     one, two = (
         _fill_recordings(subject.fit_model(recordings), [recordings[-1]])[0].mean for _ in range(2)
     )
