@@ -8,6 +8,7 @@ from their papers. Beside the protocol as it is run stands a corrected one.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -163,13 +164,7 @@ def motion_prediction_problem(
 def _cut_windows(recording: Recording, starts: Starts) -> list[Recording]:
     frames = np.arange(N_SEEN + N_AHEAD)
     return [
-        Recording(
-            f"{recording.name} from {start + 1}",
-            recording.times[start + frames],
-            recording.values[start + frames],
-            recording.channels,
-            recording.units,
-        )
+        replace(recording.frames(start + frames), name=f"{recording.name} from {start + 1}")
         for start in starts
     ]
 
