@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench.basics.scratch import sweep_scratch
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.data import fetch_missing
 from mocapbench.benchmark.cli.options import (
@@ -27,7 +28,6 @@ from mocapbench.benchmark.cli.running.log import require_log, run_log
 from mocapbench.benchmark.cli.running.messages import downloading, fetching
 from mocapbench.benchmark.cli.running.session import Session
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.runs.execution.scratch import sweep_scratch
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Job, Request

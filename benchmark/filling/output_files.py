@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.basics.arrays import Index
+from mocapbench.basics.scratch import scratch_folder, sweep_scratch
 from mocapbench.basics.temporaries import sweep
 from mocapbench.basics.whole_files import write_text, write_together
 from mocapbench.benchmark.errors import UsageError
@@ -17,7 +18,6 @@ from mocapbench.benchmark.files import ENTRIES, GAPS, require_short_names, requi
 from mocapbench.benchmark.filling.filled_recording import FilledRecording
 from mocapbench.benchmark.filling.gaps import Gap, mask_gaps
 from mocapbench.benchmark.filling.input_files import InputFile
-from mocapbench.benchmark.runs.execution.scratch import scratch_folder, sweep_scratch
 from mocapbench.datasets import FrameByChannel, Mask
 from mocapbench.reports import csv_text
 

@@ -16,6 +16,7 @@ import joblib
 from pebble import ProcessExpired
 
 from mocapbench.basics.processes import kill_children
+from mocapbench.basics.scratch import scratch_folder
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.registry import MODELS, find_calibration
@@ -25,7 +26,6 @@ from mocapbench.benchmark.runs.execution.child import (
     call_in_child,
 )
 from mocapbench.benchmark.runs.execution.fork_server import fork_server_without_script
-from mocapbench.benchmark.runs.execution.scratch import scratch_folder
 from mocapbench.benchmark.runs.execution.worker import load_plugins_once
 from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 from mocapbench.benchmark.runs.machine import memory_share

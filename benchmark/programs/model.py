@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import gettempdir
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -14,7 +13,7 @@ from mocapbench.baselines import FrameImputer, Prediction
 from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.recordings import by_content
 from mocapbench.basics.numbers import real_numbers
-from mocapbench.basics.temporaries import sweep, temporary_folder
+from mocapbench.basics.scratch import scratch_folder
 from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.programs.exchange import EXCHANGES, NamedArrays
 from mocapbench.benchmark.programs.running import ProgramError, run_program
@@ -162,8 +161,7 @@ class CommandModel(FrameImputer):
 @contextmanager
 def _make_folder(*names: str) -> Iterator[Path]:
     """Make a folder of temporary files with these folders in it, which goes with the context."""
-    sweep(Path(gettempdir()))
-    with temporary_folder(Path(gettempdir())) as folder:
+    with scratch_folder() as folder:
         for name in names:
             (folder / name).mkdir()
         yield folder

@@ -7,6 +7,7 @@ from functools import partial
 
 from rich.console import Console
 
+from mocapbench.basics.scratch import scratch_folder
 from mocapbench.benchmark.archives import (
     archive_at,
     fetch_command,
@@ -18,7 +19,6 @@ from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.execution.base import Backend
 from mocapbench.benchmark.runs.execution.execute import execute
 from mocapbench.benchmark.runs.execution.job_queue import JobQueue
-from mocapbench.benchmark.runs.execution.scratch import scratch_folder
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.fitting.trained import TrainedModels
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig

@@ -8,11 +8,11 @@ import tempfile
 
 import pytest
 
-from mocapbench.benchmark.runs.execution.scratch import scratch_folder
+from mocapbench.basics.scratch import scratch_folder
 
 HOLD_ONE = (
     "import os, time\n"
-    "from mocapbench.benchmark.runs.execution.scratch import scratch_folder\n"
+    "from mocapbench.basics.scratch import scratch_folder\n"
     "with scratch_folder() as folder:\n"
     "    (folder / 'file').write_text('mine')\n"
     "    os.write(1, f'{folder}\\n'.encode())\n"

@@ -9,10 +9,10 @@ from contextlib import ExitStack
 import dask
 from distributed import Client, LocalCluster, Worker, WorkerPlugin
 
+from mocapbench.basics.scratch import process_folder
 from mocapbench.benchmark.runs.cluster.admission import require_workers
 from mocapbench.benchmark.runs.cluster.backend import ClusterBackend
 from mocapbench.benchmark.runs.execution.fork_server import SAFE_PATH, environment
-from mocapbench.benchmark.runs.execution.scratch import process_folder
 
 __all__ = ["open_backend"]
 

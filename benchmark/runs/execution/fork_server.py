@@ -15,8 +15,8 @@ from multiprocessing.process import BaseProcess, current_process
 from types import ModuleType
 from typing import Any
 
+from mocapbench.basics.scratch import process_folder
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.runs.execution.scratch import process_folder
 
 __all__ = [
     "SAFE_PATH",

@@ -13,7 +13,7 @@ from hostile_folder import HostileFolder
 from threadpoolctl import threadpool_info
 
 from mocapbench import benchmark as bench
-from mocapbench.benchmark.runs.execution.scratch import scratch_folder
+from mocapbench.basics.scratch import scratch_folder
 from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 
 
