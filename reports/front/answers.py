@@ -47,8 +47,10 @@ COMPARED: Mapping[Direction, str] = {
     Direction.TARGET: "nearer than",
 }
 
-Finding = tuple[TaskResults, str, Sequence[Standing]]
-"""A task, what it asks, and its standings by its first metric, best first, one or more."""
+Finding = tuple[TaskResults, str, Sequence[Standing], str]
+"""A task, what it asks, its standings by its first metric, best first, one or more, and the task's
+reference if the best is no better, with its mean, empty if it is.
+"""
 
 
 def answers(tasks: Sequence[TaskResults]) -> list[dict[str, Any]]:
@@ -82,8 +84,17 @@ def _find(results: TaskResults) -> list[Finding]:
     ]
     whole = [(results.layout.page.short + _mark_generated(results), None)]
     rivals = _leave_out_choosers(results)
-    found = [(results, text, standings(rivals, metric, cases)) for text, cases in asked or whole]
-    return [finding for finding in found if finding[2]]
+    found = [(text, standings(rivals, metric, cases)) for text, cases in asked or whole]
+    better = _find_better(results)
+    return [
+        (results, text, ranked, better.get(ranked[0].label, "")) for text, ranked in found if ranked
+    ]
+
+
+def _find_better(results: TaskResults) -> Mapping[str, str]:
+    """Return the task's reference and its mean, for each label that is no better over all cases."""
+    cells, name = board_cells(results), reference_of(results)
+    return {label: f"{name}, {cells[name].text}" for label, c in cells.items() if name and c.beaten}
 
 
 def _leave_out_choosers(results: TaskResults) -> TaskResults:
@@ -124,8 +135,8 @@ def _answer(question: str, group: Sequence[Finding]) -> dict[str, Any]:
 
 def _find_leader(finding: Finding) -> str:
     """Return the model that alone is best, and better than the reference; empty without one."""
-    results, _, found = finding
-    return "" if level_with_best(found) or _is_beaten(results, found) else found[0].label
+    _, _, found, better = finding
+    return "" if level_with_best(found) or better else found[0].label
 
 
 def _doubt(model: str, deciding: Sequence[Finding]) -> str:
@@ -153,30 +164,17 @@ def _lead(finding: Finding) -> Place | None:
     return second.standing if second else None
 
 
-def _is_beaten(results: TaskResults, found: Sequence[Standing]) -> bool:
-    """Return whether the best model is no better than the task's reference, over all cases."""
-    return board_cells(results)[found[0].label].beaten
-
-
 def _head(finding: Finding) -> tuple[str, str]:
     """Return the anchor of a task's section, and what is asked."""
-    results, asked, _ = finding
+    results, asked, _, _ = finding
     return slug("task", results.layout.name), asked
 
 
 def _describe(finding: Finding) -> str:
     """Return the best model, its mean, and by how much it is better than the next."""
-    results, _, found = finding
-    return _describe_best(results, found) + _describe_lead(results, found) + _name_better(finding)
-
-
-def _name_better(finding: Finding) -> str:
-    """Return the reference and its mean, where the best model is no better."""
-    results, _, found = finding
-    name = reference_of(results)
-    if not name or not _is_beaten(results, found):
-        return ""
-    return f"; no better than {name}, {board_cells(results)[name].text}"
+    results, _, found, better = finding
+    no_better = f"; no better than {better}" if better else ""
+    return _describe_best(results, found) + _describe_lead(results, found) + no_better
 
 
 def _describe_best(results: TaskResults, found: Sequence[Standing]) -> str:
