@@ -28,6 +28,7 @@ from mocapbench.reports.analysis.cells import cells
 from mocapbench.reports.analysis.contrasts import PairContrast, contrasts
 from mocapbench.reports.analysis.results import TaskResults, task_results
 from mocapbench.reports.analysis.standings import next_best, standings
+from mocapbench.reports.markdown import markup_lines
 from mocapbench.reports.text import number
 
 HALVES = {"odd": 1, "even": 0}
@@ -38,7 +39,7 @@ def main(run: str, *options: str) -> None:
     table = pd.DataFrame(list_leads(Path(run), whole="--all" in options))
     table["decided"] = np.where(holm(table.pop("p")) <= ALPHA, "yes", "no")
     agree = table.pop("agrees")
-    print(markdown(table))
+    print("\n".join(markup_lines([*table.columns], table.to_numpy().tolist())))
     print(
         f"\n{len(table)} leads, {(table['decided'] == 'yes').sum()} decided; the same way in both "
         f"halves: {agree.sum()}, of the decided {(agree & (table['decided'] == 'yes')).sum()}"
@@ -51,10 +52,10 @@ def list_leads(run: Path, *, whole: bool) -> Iterator[dict[str, object]]:
     bundle = bench.bundle(store.planned(), store.load_plan()["provenance"])
     for results in (task_results(bundle, layout) for layout in bundle.layouts):
         for case in find_cases(results, whole):
-            metric = results.layout.page.metrics[0]
-            best, second = standings(results, metric, [case])[0], find_next(results, case)
+            found = standings(results, results.layout.page.metrics[0], [case])
+            second = next_best(found)
             if second:
-                yield describe_lead(results, case, best.label, second)
+                yield describe_lead(results, case, found[0].label, second.label)
 
 
 def find_cases(results: TaskResults, whole: bool) -> Iterator[CaseLayout]:
@@ -62,12 +63,6 @@ def find_cases(results: TaskResults, whole: bool) -> Iterator[CaseLayout]:
     for case in results.representative_cases(results.layout.page.metrics[0]):
         if case.name in results.layout.page.asks or (whole and case.subjects):
             yield case
-
-
-def find_next(results: TaskResults, case: CaseLayout) -> str:
-    """Return the model that is next to the best, empty where there is none."""
-    second = next_best(standings(results, results.layout.page.metrics[0], [case]))
-    return second.label if second else ""
 
 
 def compare(results: TaskResults, case: CaseLayout, one: str, other: str) -> PairContrast:
@@ -86,7 +81,7 @@ def describe_lead(
         "best": f"`{best}` {number(lead.first, 2)}",
         "next": f"`{second}`",
         "better by": " to ".join(number(end, 2) for end in (lead.low, lead.high)),
-        "people": lead.n,
+        "people": str(lead.n),
         "p": lead.t_p_holm,
         "agrees": True,
     }
@@ -103,12 +98,6 @@ def keep_people(results: TaskResults, case: CaseLayout, remainder: int) -> TaskR
     """Return the results of people whose number, divided by two, leaves ``remainder``."""
     kept = [fold for fold in results.fold_numbers if int(case.subject(fold)) % 2 == remainder]
     return replace(results, folds=results.folds[kept])
-
-
-def markdown(table: pd.DataFrame) -> str:
-    """Return a table in Markdown."""
-    heads = [f"| {' | '.join(table.columns)} |", "|---" * table.shape[1] + "|"]
-    return "\n".join([*heads, *(f"| {' | '.join(map(str, row))} |" for row in table.to_numpy())])
 
 
 if __name__ == "__main__":
