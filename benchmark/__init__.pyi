@@ -46,6 +46,7 @@ from .registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
 from .results.bundle import bundle
 from .results.drawn import last_drawn, stamp
 from .results.error_parts import error_parts
+from .results.finished import describe_basis, finished_records
 from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
 from .results.named_results import find_cases, find_labels, find_metrics, find_tasks
@@ -117,6 +118,7 @@ __all__ = [
     "choose_missing_rule",
     "compare",
     "data_totals",
+    "describe_basis",
     "draft",
     "draw_alignments",
     "draw_blends",
@@ -138,6 +140,7 @@ __all__ = [
     "find_labels",
     "find_metrics",
     "find_tasks",
+    "finished_records",
     "forecast_text",
     "fork_server",
     "format_entry",

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import tomllib
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import Distribution, EntryPoint, entry_points
 from pathlib import Path
 
 import mocapbench
@@ -58,7 +58,7 @@ def require_up_to_date(project: Path) -> None:
         (group, point.name, point.value)
         for group in {group for group, _, _ in listed}
         for point in _read_installed().select(group=group)
-        if point.dist is not None and point.dist.name == _PACKAGE
+        if point.dist is not None and _name_distribution(point.dist) == _PACKAGE
     }
     names = dict.fromkeys(f"{name} ({group})" for group, name, _ in sorted(listed ^ installed))
     if names:
@@ -67,6 +67,11 @@ def require_up_to_date(project: Path) -> None:
             f"differ in {join_names([*names], _MOST_NAMES)}; run `pip install -e .` again in "
             f"{project.parent}"
         )
+
+
+@cache  # it is read anew each time, and has a hundred entry points
+def _name_distribution(distribution: Distribution) -> str:
+    return distribution.name
 
 
 def _read_listed(project: Path) -> set[tuple[str, str, str]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -26,7 +26,7 @@ from mocapbench.benchmark.cli.options import (
 from mocapbench.benchmark.cli.running.about import about
 from mocapbench.benchmark.cli.running.log import require_log, run_log
 from mocapbench.benchmark.cli.running.messages import downloading, fetching
-from mocapbench.benchmark.cli.running.session import Session
+from mocapbench.benchmark.cli.running.session import Session, end_if_finished
 from mocapbench.benchmark.errors import UsageError
 
 if TYPE_CHECKING:
@@ -100,7 +100,14 @@ def run(
         bench.fork_server()  # of a new run, which loads the libraries while it is planned
     console, plugins = LiteralConsole(), load_plugins(plugin)
     task_files = bench.open_task_files(task_file or (), recordings)
-    own = bench.add_tasks(task_files)
+    archive, own = (
+        open_archive(data_dir, task_files),
+        bench.add_tasks(task_files) if task_files else (),
+    )
+    sweep_scratch()  # here, since a killed run may have finished all, so that no worker starts
+    asked = [profile, split(tasks), split(models), cases or (), split(metrics), folds, seed]
+    if not (plugins or task_files or dry_run or explain or no_report):
+        _end_if_finished(out, asked, archive, console, log_json)
     chosen = split(tasks) or own
     request = bench.Request(
         profile,
@@ -111,8 +118,6 @@ def run(
         folds,
         seed,
     )
-    sweep_scratch()  # here, since a killed run may have finished all, so that no worker starts
-    archive = open_archive(data_dir, task_files)
     if not (offline or dry_run):
         fetch_missing(archive, bench.required_recordings(request, archive), console)
     planned = _plan_jobs(request, archive)
@@ -137,8 +142,27 @@ def run(
     )
     with run_log(log_json) as log, backend, store.locked():
         store.sweep()
-        session = Session(planned, store, config, backend, console, log)
+        basis = {} if plugins or task_files else _describe_basis(asked, planned)
+        session = Session(planned, store, config, backend, console, log, basis)
         raise typer.Exit(session.run(with_report=not no_report))
+
+
+def _end_if_finished(
+    out: Path,
+    asked: Sequence[Any],
+    archive: Archive,
+    console: LiteralConsole,
+    log_json: Path | None,
+) -> None:
+    if bench.RunDirectory.is_run(out):
+        store = bench.RunDirectory(out)
+        with store.locked():
+            end_if_finished(store, asked, archive, console, log_json)
+
+
+def _describe_basis(asked: Sequence[Any], planned: Sequence[Job]) -> dict[str, Any]:
+    digests = {uri: digest for job in planned for uri, digest in job.digests.items()}
+    return bench.describe_basis(asked, digests)
 
 
 def _plan_jobs(request: Request, archive: Archive) -> Sequence[Job]:

@@ -13,7 +13,7 @@ from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.runs.source_code.folders import folders_digest
 from mocapbench.benchmark.task_files.task_file import TaskFile
 
-__all__ = ["last_drawn", "stamp"]
+__all__ = ["digest_code", "last_drawn", "stamp"]
 
 _PARTS = ("basics", "datasets", "metrics", "baselines", "reports", "benchmark")
 
@@ -31,7 +31,7 @@ def stamp(
     task_files : sequence of TaskFile
         Of which every text counts.
     """
-    digest = hashlib.sha256(_drawing_code())
+    digest = hashlib.sha256(digest_code().encode())
     for text in (*(path.read_bytes() for path in plugins), *(f.text.encode() for f in task_files)):
         digest.update(hashlib.sha256(text).digest())
     for record in records:
@@ -40,9 +40,9 @@ def stamp(
 
 
 @cache
-def _drawing_code() -> bytes:
+def digest_code() -> str:
     """Return a digest of our code, templates, styles and published values."""
-    return folders_digest(_PARTS).encode()
+    return folders_digest(_PARTS)
 
 
 def last_drawn(store: RunDirectory, keys: Sequence[str]) -> str:

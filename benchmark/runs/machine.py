@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import joblib
 import psutil
 
 __all__ = ["memory_share", "n_cores"]
@@ -13,6 +12,8 @@ MINIMUM_MEMORY = 4.0
 
 def n_cores() -> int:
     """Return how many cores this process may use, by its affinity and its control group."""
+    import joblib  # noqa: PLC0415  # it takes .1 s, as long as all else of a run that is finished
+
     return int(joblib.cpu_count())
 
 

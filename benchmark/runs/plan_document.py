@@ -1,14 +1,15 @@
 """The plan of a run directory: what its last run was asked to do.
 
 A JSON object: ``keys`` in table order, what each of the ``jobs`` is, the run's ``provenance``, how
-many ``workers`` it had or from which ``runs`` it was merged, and the user's own ``task_files``.
+many ``workers`` it had or from which ``runs`` it was merged, and the user's own ``task_files``. By
+the ``drawn`` report, the ``basis`` and the ``recordings`` a later run knows that nothing is new.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mocapbench.benchmark.foreign_files import (
     Count,
@@ -23,9 +24,11 @@ from mocapbench.benchmark.foreign_files import (
     read_json,
     table_schema,
 )
-from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.address import Address
+
+if TYPE_CHECKING:
+    from mocapbench.benchmark.runs.job import Job
 
 __all__ = ["PlannedJob", "plan_document", "planned_jobs", "planned_task_files", "read_plan"]
 
@@ -45,6 +48,8 @@ _PLAN = table_schema(
         "runs": list[dict[Name, Text]],
         "task_files": list[TaskFile],
         "drawn": Name,
+        "basis": Name,
+        "recordings": list[Name],
     },
 )
 """What the file of a plan holds."""

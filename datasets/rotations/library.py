@@ -30,7 +30,6 @@ from mocapbench.datasets.rotations.body import (
     ROTATION_UNITS,
     rotation_skeleton,
 )
-from mocapbench.datasets.rotations.recipe import rotations_of
 
 __all__ = ["RotationLibrary", "original_recordings"]
 
@@ -92,6 +91,9 @@ class RotationLibrary(Library):
             times = np.arange(len(values)) / FRAME_RATE
             return Recording(key, times, values, ROTATION_CHANNELS, ROTATION_UNITS)
         original = original_recordings()[key]
+        # SciPy's rotations take .2 s to load, which whoever has the files should not pay.
+        from mocapbench.datasets.rotations.recipe import rotations_of  # noqa: PLC0415
+
         return rotations_of(self._database.recording(original), self._database.skeleton(original))
 
     def skeleton(self, key: str) -> Skeleton:

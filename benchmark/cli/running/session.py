@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+import typer
 
 from mocapbench import benchmark as bench
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import show_left_out
 from mocapbench.benchmark.cli.report import write_report
+from mocapbench.benchmark.cli.running.log import run_log
 from mocapbench.benchmark.cli.running.messages import fetching, summary, wall_time, without_report
 from mocapbench.benchmark.errors import ExitCode
 
@@ -19,8 +22,9 @@ if TYPE_CHECKING:
 
     from mocapbench.benchmark import Backend, Job, Record, RunDirectory, WorkerConfig
     from mocapbench.benchmark.events import EventLog
+    from mocapbench.datasets import Archive
 
-__all__ = ["Session"]
+__all__ = ["Session", "end_if_finished"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +41,8 @@ class Session:
         Where the jobs run.
     console : LiteralConsole
     log : EventLog
+    basis : mapping
+        What `end_if_finished` of a later run needs, beside the plan; may be empty.
     """
 
     planned: Sequence[Job]
@@ -45,6 +51,7 @@ class Session:
     backend: Backend
     console: LiteralConsole
     log: EventLog
+    basis: Mapping[str, Any]
 
     def run(self, *, with_report: bool) -> ExitCode:
         """Run the jobs, say how they ended, and write the report unless it shows them already."""
@@ -58,7 +65,7 @@ class Session:
         self._say_how_it_ended(records)
         stamp = bench.stamp(records, [*self.config.plugins], self.config.task_files)
         if stamp == drawn:
-            self._say_nothing_is_new()
+            _say_nothing_is_new(self.store, self.console)
             return _exit_code(records)
         about["wall time"] = wall_time(time.monotonic() - started, records, about["started"])
         save_plan(provenance=about)
@@ -71,12 +78,12 @@ class Session:
 
     @property
     def _page(self) -> Path:
-        return self.store.path / "report.html"
+        return _page_of(self.store)
 
     def _plan_writer(self) -> Callable[..., None]:
         """Return a function that writes the plan, and what else is to be said of it."""
         task_files = [*self.config.task_files]
-        same = {"workers": self.backend.n_workers, "task_files": task_files}
+        same = {"workers": self.backend.n_workers, "task_files": task_files, **self.basis}
 
         def save_plan(**about: Any) -> None:
             self.store.save_plan(bench.plan_document(self.planned, **same, **about))
@@ -108,13 +115,54 @@ class Session:
             self._say(bench.lacking_line(self.planned, remedy))
         self.console.print(summary(records))
 
-    def _say_nothing_is_new(self) -> None:
-        self.console.print(f"nothing new; report: {self._page.resolve()}", soft_wrap=True)
-        show_left_out(self.store.damaged, self.console)
-
     def _say(self, *lines: str) -> None:
         for line in lines:
             self.console.print(line, soft_wrap=True, highlight=False)
+
+
+def end_if_finished(
+    store: RunDirectory,
+    asked: Sequence[Any],
+    archive: Archive,
+    console: LiteralConsole,
+    log_file: Path | None,
+) -> None:
+    """End the command, as `Session` would, if the run in the folder is finished and nothing is new.
+
+    Parameters
+    ----------
+    store : RunDirectory
+        Locked by the caller.
+    asked : sequence
+        What the user asked for, as JSON can hold it.
+    archive : Archive
+    console : LiteralConsole
+    log_file : Path or None
+        To which events are added.
+
+    Raises
+    ------
+    typer.Exit
+        If it is.
+    """
+    records = bench.finished_records(store, asked, archive)
+    if not records:
+        return
+    with run_log(log_file) as log:
+        log.tell_run_start(store.path, len(records), len(records))
+        console.print(f"{len(records)} of {len(records)} jobs are in {store.path} already")
+        console.print(summary(records))
+        _say_nothing_is_new(store, console)
+        raise typer.Exit(_exit_code(records))
+
+
+def _say_nothing_is_new(store: RunDirectory, console: LiteralConsole) -> None:
+    console.print(f"nothing new; report: {_page_of(store).resolve()}", soft_wrap=True)
+    show_left_out(store.damaged, console)
+
+
+def _page_of(store: RunDirectory) -> Path:
+    return store.path / "report.html"
 
 
 def _exit_code(records: Sequence[Record]) -> ExitCode:

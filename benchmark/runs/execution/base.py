@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from contextlib import AbstractContextManager
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from mocapbench.benchmark.runs.execution.spool import Spool
-from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
+if TYPE_CHECKING:
+    from mocapbench.benchmark.runs.execution.spool import Spool
+    from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
 
 __all__ = ["Backend", "Executor"]
 

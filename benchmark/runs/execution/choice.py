@@ -8,13 +8,13 @@ import re
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.execution.base import Backend
-from mocapbench.benchmark.runs.execution.this_machine import ThisMachine
 from mocapbench.benchmark.runs.machine import n_cores
 
 __all__ = ["open_backend", "require_backend"]
 
 
 _CLUSTER = "mocapbench.benchmark.runs.cluster"
+_THIS_MACHINE = "mocapbench.benchmark.runs.execution.this_machine"
 _MODULES = {"--scheduler": f"{_CLUSTER}.scheduler", "--cluster": f"{_CLUSTER}.local"}
 """Each has ``open_backend``, which takes the value of the option."""
 _FORMS = {
@@ -50,7 +50,8 @@ def open_backend(
         if value is not None:
             backend: Backend = importlib.import_module(_MODULES[option]).open_backend(value)
             return backend
-    return ThisMachine(jobs or n_cores())
+    here: Backend = importlib.import_module(_THIS_MACHINE).ThisMachine(jobs or n_cores())
+    return here
 
 
 def require_backend(jobs: int | None, scheduler: str | None, cluster: str | None) -> None:

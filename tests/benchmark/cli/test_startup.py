@@ -114,6 +114,16 @@ def test_who_resumes_a_finished_run_starts_no_worker(tmp_path):
     assert "pebble" not in loaded
 
 
+def test_who_resumes_a_finished_run_loads_neither_models_nor_tables(tmp_path):
+    task = ("--tasks", "toy-interpolation-1", "--models", "trivial", "--profile", "smoke")
+    resume = ("run", *task, "--out", str(tmp_path / "run"))
+    assert _run(*resume)[0] == 0
+    code, printed, loaded = _run(*resume)
+    assert code == 0
+    assert "nothing new; report" in printed
+    assert {*loaded} <= {"numpy", "scipy"}
+
+
 @pytest.mark.slow
 def test_what_computes_does_load_them():
     """Else the tests above would prove nothing."""
