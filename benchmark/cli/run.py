@@ -154,9 +154,9 @@ def _end_if_finished(
     console: LiteralConsole,
     log_json: Path | None,
 ) -> None:
-    if bench.RunDirectory.is_run(out):
-        store = bench.RunDirectory(out)
+    if bench.RunDirectory.is_run(out) and not (store := bench.RunDirectory(out)).is_locked:
         with store.locked():
+            store.sweep()
             end_if_finished(store, asked, archive, console, log_json)
 
 

@@ -65,11 +65,11 @@ def run_state(store: RunDirectory) -> RunState:
     """
     writing, plan = store.is_locked, store.load_plan()
     jobs = planned_jobs(plan)
-    records = {job.key: store.load(job.key) for job in jobs}
+    states = [_name_state(store.load(job.key)) for job in jobs]  # of 100,000 no record is kept
     tasks: dict[str, Counter[str]] = defaultdict(Counter)
-    for job in jobs:
-        tasks[job.address.task][_name_state(records[job.key])] += 1
-    left = [job for job in jobs if records[job.key] is None]
+    for job, state in zip(jobs, states, strict=True):
+        tasks[job.address.task][state] += 1
+    left = [job for job, state in zip(jobs, states, strict=True) if state == "left"]
     return RunState(
         tasks,
         writing,
@@ -95,8 +95,11 @@ def _work_left(left: Sequence[PlannedJob], store: RunDirectory, profile: str) ->
     To score predictions that are there, or that another row asks for too, takes no time beside it.
     A model that several jobs share is fitted once.
     """
+    if not left:
+        return []
     predicted = {key for key in sorted(store.fit_keys()) if store.has_fit(key)}
     new = [job for job in left if job.fit_key not in predicted]
     fits = {job.training_key or job.fit_key: job.address for job in new}
     known = profile if profile in MEASURED else "quick"  # runs that were merged have no profile
-    return estimate_fits(fits.values(), store.records(), known)
+    records = filter(None, map(store.load, sorted(store.record_keys())))
+    return estimate_fits(fits.values(), records, known)

@@ -21,7 +21,7 @@ from __future__ import annotations
 import fcntl
 import json
 import zipfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
@@ -46,7 +46,7 @@ from mocapbench.benchmark.foreign_files import (
 from mocapbench.benchmark.runs.check_document import read_check
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.key_parts import KeyEntry, encode_keys, read_keys
-from mocapbench.benchmark.runs.plan_document import read_plan
+from mocapbench.benchmark.runs.plan_document import PlannedJob, planned_jobs, read_plan
 from mocapbench.benchmark.runs.record import Record
 
 __all__ = ["RunDirectory"]
@@ -195,7 +195,8 @@ class RunDirectory:
 
     def records(self) -> list[Record]:
         """Return every whole record, by name of file."""
-        return self._load_records(sorted(self.record_keys()))
+        loaded = map(self.load, sorted(self.record_keys()))
+        return [record for record in loaded if record is not None]
 
     def planned(self) -> list[Record]:
         """Return the whole records of the last run, in table order.
@@ -205,10 +206,17 @@ class RunDirectory:
         UsageError
             If no run got so far, or its plan is damaged.
         """
-        return self._load_records(self.load_plan()["keys"])
+        jobs = planned_jobs(self.load_plan())
+        loaded = ((job, self.load(job.key)) for job in jobs)
+        return [r for job, r in loaded if r is not None and self._is_record_of(job, r)]
 
-    def _load_records(self, keys: Iterable[str]) -> list[Record]:
-        return [record for key in keys if (record := self.load(key)) is not None]
+    def _is_record_of(self, job: PlannedJob, record: Record) -> bool:
+        """Return whether a record is of the row that the plan says; one of another is damaged."""
+        if record.address == job.address:
+            return True
+        path = self.record_path(job.key)
+        self.damaged.append(f"{path}: expected the record of {job.address}, got {record.address}")
+        return False
 
     def record_keys(self) -> set[str]:
         """Return the keys under which there are records, whole or damaged."""

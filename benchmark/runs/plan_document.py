@@ -7,6 +7,7 @@ the ``drawn`` report, the ``basis`` and the ``recordings`` a later run knows tha
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -111,4 +112,13 @@ def _read_whole(path: Path) -> dict[str, Any]:
     keys, jobs = len(plan["keys"]), len(plan["jobs"])
     if keys != jobs:
         raise ForeignFileError(f"expected a key for each job, got {keys} for {jobs}")
+    _require_each_once(plan)
     return plan
+
+
+def _require_each_once(plan: Mapping[str, Any]) -> None:
+    """Refuse a plan with two jobs of one row, whose values no table can hold."""
+    counts = Counter(job.address for job in planned_jobs(plan))
+    twice = next((address for address, count in counts.items() if count > 1), None)
+    if twice:
+        raise ForeignFileError(f"expected each job once, got {twice} twice")

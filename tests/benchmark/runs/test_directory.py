@@ -153,6 +153,15 @@ def test_a_record_under_another_name_is_not_trusted(store, record):
     assert "holds the record" in store.damaged[0]
 
 
+def test_a_record_of_another_row_than_the_plan_says_is_not_trusted(store, record):
+    other = replace(record, key="b" * 64, address=HERE._replace(fold=1))
+    store.save_plan(plan_of([record, other]))
+    store.save(record)
+    store.save(replace(other, address=record.address))
+    assert store.planned() == [record]
+    assert f"expected the record of {other.address}, got {record.address}" in store.damaged[0]
+
+
 def test_no_folder_holds_more_than_a_small_part_of_many_records(store, record):
     keys = [hashlib.sha256(bytes([n, m])).hexdigest() for n in range(8) for m in range(125)]
     for key in keys:
