@@ -56,7 +56,7 @@ ROW = WHOLE["jobs"][0]
     ("changes", "said"),
     [
         ({"jobs": WHOLE["jobs"][:1]}, "expected a key for each job, got 3 for 1"),
-        ({"jobs": [WHOLE["jobs"][0]] * 3}, "expected each job once, got t · c · label · fold 1 twice"),
+        ({"jobs": [WHOLE["jobs"][0]] * 3}, "expected each job once, got t · c · label · fold 1 tw"),
         ({"jobs": []}, "expected a key for each job"),
         ({"jobs": [{}] * 3}, r"at jobs\[0\], expected the entry"),
         ({"jobs": [3] * 3}, r"at jobs\[0\], expected a table, got a whole number"),
