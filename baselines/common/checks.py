@@ -125,7 +125,8 @@ def _check_values(recording: Recording) -> None:
             f"recording {recording.name!r}: expected at least one frame and one channel, "
             f"got {recording.values.shape} of them; leave it out"
         )
-    largest = np.fmax.reduce(np.abs(recording.values), axis=None, initial=0.0)
+    values = recording.values.ravel()
+    largest = max(np.fmax.reduce(values, initial=0.0), -np.fmin.reduce(values, initial=0.0))
     if largest > _LARGEST:
         raise ValueError(
             f"recording {recording.name!r}: expected values of at most {_LARGEST:g} in size, "

@@ -48,5 +48,5 @@ def restore_entries(entries: NDArray[Any], arranged: GapProblem, order: Index) -
 
 def _rank_entries(arranged: GapProblem, order: Index) -> Index:
     """Return the place (M,) that each wanted entry of an arranged problem had before."""
-    frames, channels = np.nonzero(arranged.target)
+    frames, channels = np.divmod(np.flatnonzero(arranged.target), len(order))
     return np.argsort(np.argsort(frames * len(order) + order[channels]))

@@ -122,9 +122,9 @@ def mask_ends(visible: Mask) -> Mask:
 
     A channel of which nothing is visible has no ends.
     """
-    seen_before = np.logical_or.accumulate(visible, axis=0)
-    seen_after = np.logical_or.accumulate(visible[::-1], axis=0)[::-1]
-    ends: Mask = visible.any(axis=0) & ~(seen_before & seen_after)
+    first, last = visible.argmax(axis=0), len(visible) - 1 - visible[::-1].argmax(axis=0)
+    frames = np.arange(len(visible))[:, np.newaxis]
+    ends: Mask = visible.any(axis=0) & ((frames < first) | (frames > last))
     return ends
 
 

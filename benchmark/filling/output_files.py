@@ -130,8 +130,8 @@ def _hold_nearest(values: FrameByChannel, hidden: Mask) -> FrameByChannel:
     result = values.copy()
     for frame, channel in np.argwhere(hidden).tolist():
         seen = np.flatnonzero(~np.isnan(values[:, channel]))
-        nearest = seen[np.abs(seen - frame).argsort(kind="stable")[:1]]
-        result[frame, channel] = next(iter(values[nearest, channel]), 0.0)
+        nearest = seen[np.abs(seen - frame).argmin()] if len(seen) else None
+        result[frame, channel] = 0.0 if nearest is None else values[nearest, channel]
     return result
 
 
