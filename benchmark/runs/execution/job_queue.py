@@ -80,11 +80,18 @@ class JobQueue:
 
     def take(self) -> Job | None:
         """Return the job to start next; None if none can start now."""
-        kind = self._next_kind()
+        is_first, kind = bool(self._untried), self._next_kind()
         if kind is None:
             return None
-        job = self._waiting[kind].popleft()
+        job = self._pick_typical(kind) if is_first else self._waiting[kind].popleft()
         self._running[job.key] = (kind, time.monotonic())
+        return job
+
+    def _pick_typical(self, kind: _Kind) -> Job:
+        """Return a job from the middle of its kind: the first cases of a task are often small."""
+        waiting = self._waiting[kind]
+        job = waiting[len(waiting) // 2]
+        del waiting[len(waiting) // 2]
         return job
 
     def _next_kind(self) -> _Kind | None:
@@ -124,7 +131,17 @@ class JobQueue:
             self._hold(training_key, other)
 
     def _expect_seconds(self, kind: _Kind) -> float:
-        return self._durations.expect_seconds(_list_alike(kind))
+        """Return how long a job takes.
+
+        No less than jobs of its kind that run have taken so far; nor longer than to fit its model,
+        as far as no other tells how long it takes to predict or score alone.
+        """
+        now, fit = time.monotonic(), (*kind[:2], _FIT)
+        expected = self._durations.expect_seconds(_list_alike(kind))
+        if not self._durations.knows([kind]) and self._durations.knows([fit]):
+            expected = min(expected, self._durations.expect_seconds([fit]))
+        so_far = (now - began for running, began in self._running.values() if running == kind)
+        return max(expected, *so_far, 0.0)
 
     def time_left(self, n_workers: int) -> float:
         """Return about how many seconds it takes until all jobs have ended."""

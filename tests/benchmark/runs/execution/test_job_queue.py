@@ -113,3 +113,30 @@ def test_a_running_job_counts_for_what_is_left_of_it(monkeypatch):
     assert queue.time_left(1) == pytest.approx(6)
     now = 40.0
     assert queue.time_left(1) == 0
+
+
+@pytest.mark.parametrize("n_jobs", [1, 2, 5, 6])
+def test_the_first_of_a_kind_is_from_its_middle_and_the_others_keep_their_order(n_jobs):
+    queue, middle = JobQueue([_job(n) for n in range(n_jobs)]), n_jobs // 2
+    order = [job.address.fold for job in iter(queue.take, None)]
+    assert order == [middle, *(n for n in range(n_jobs) if n != middle)]
+
+
+def test_to_predict_is_expected_to_take_no_longer_than_to_fit_too(monkeypatch):
+    """What is left of other entrants, which may take long, says little of one not yet tried."""
+    monkeypatch.setattr(time, "monotonic", lambda: 0.0)
+    jobs = [_job(n, label, f"fit {n}", f"model {label}") for n, label in enumerate("aabb")]
+    queue = JobQueue(jobs)
+    queue.finish(queue.take(), 100.0)
+    queue.finish(queue.take(), 0.1)
+    queue.finish(queue.take(), 90.0)  # the other job of a, which predicts by its model
+    assert queue.time_left(1) == pytest.approx(0.1)
+
+
+def test_jobs_are_expected_to_take_no_less_than_one_that_runs_has_taken(monkeypatch):
+    now = 0.0
+    monkeypatch.setattr(time, "monotonic", lambda: now)
+    queue = JobQueue([_job(n) for n in range(4)])
+    queue.take()
+    now = 20.0
+    assert queue.time_left(1) == pytest.approx(3 * 20)
