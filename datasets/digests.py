@@ -61,6 +61,9 @@ class DigestMismatch(ValueError):  # noqa: N818
 class UnregisteredDigestWarning(UserWarning):
     """A file that no registry lists was accepted."""
 
+    of_many = "files without a registered digest, accepted and recorded"
+    """What a command says of all but the first, before their number."""
+
 
 def content_digest(recording: Recording) -> str:
     """Return the SHA-256 of a recording's channels, units, times and values; not of its name."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
+from collections import Counter
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -18,24 +19,44 @@ __all__ = ["main"]
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; errors become one line and an exit code."""
     forget_empty_entries()
+    shown = _Warnings()
     with wind_up_at_signals(), whole_outputs(), warnings.catch_warnings():
-        warnings.showwarning = _showing_each_once()
+        show: Callable[..., None] = shown.show
+        warnings.showwarning = show
         try:
             cli.app(args=None if arguments is None else list(arguments))
         except Exception as error:
             sys.exit(cli.explain(error))
+        finally:
+            shown.count_others()
 
 
-def _showing_each_once() -> Callable[..., None]:
-    """Return what shows warnings; Python forgets those it showed when its filters change."""
-    shown: set[tuple[str, type[Warning]]] = set()
+class _Warnings:
+    """Shows each warning once: Python forgets those it showed when its filters change.
 
-    def show(message: Warning | str, category: type[Warning], *origin: Any) -> None:
-        if (str(message), category) not in shown:
-            shown.add((str(message), category))
+    Of a kind that may come for each of a hundred files, the first is shown, and the others counted.
+    """
+
+    def __init__(self) -> None:
+        self._shown: set[tuple[str, type[Warning]]] = set()
+        self._others: Counter[type[Warning]] = Counter()
+
+    def show(self, message: Warning | str, category: type[Warning], *origin: Any) -> None:
+        """Show a warning, or count it; in place of `warnings.showwarning`."""
+        if (str(message), category) in self._shown:
+            return
+        is_first = all(category is not other for _, other in self._shown)
+        self._shown.add((str(message), category))
+        if is_first or not hasattr(category, "of_many"):
             cli.show_warning(message, category, *origin)  # imported late, as it takes time
+        else:
+            self._others[category] += 1
 
-    return show
+    def count_others(self) -> None:
+        """Say how many warnings of a kind were not shown."""
+        for category, count in self._others.items():
+            text = f"{category.of_many}: {count} more"  # type: ignore[attr-defined]
+            cli.show_warning(text, category, "", 0)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """``mocapbench data``, and what a run does about recordings that are not here."""
 
 import os
+import shutil
 from functools import partial
 from pathlib import Path
 
@@ -116,6 +117,18 @@ def test_an_empty_folder_is_said_to_be_that_by_every_command(
     monkeypatch.setenv("MOCAPBENCH_DATA", str(tmp_path / "empty"))
     assert cli(*command, *out) == 2
     assert "empty', which is empty" in cli.printed
+
+
+@pytest.mark.parametrize("n_trials", [1, 2, 30])
+def test_many_files_without_a_registered_digest_are_said_in_two_lines(cli, database, n_trials):
+    first = database / "subjects" / "99" / "99_01.amc"
+    for trial in range(2, n_trials + 1):
+        shutil.copy(first, first.with_name(f"99_{trial:02d}.amc"))
+    trials = [f"99_{trial:02d}" for trial in range(1, n_trials + 1)]
+    assert cli("data", "verify", *trials, "--data-dir", database) == 0
+    first, others = cli.printed.split("warning: ")[1:]
+    assert "99.asf: no digest is registered" in first
+    assert others == f"files without a registered digest, accepted and recorded: {n_trials} more"
 
 
 def test_verify_finds_a_file_that_changed(cli, database):
