@@ -30,6 +30,8 @@ from .inspection.left_out import left_out_lines
 from .inspection.output import explanation_table, state_lines, state_table
 from .inspection.recordings import data_totals, next_data_step
 from .inspection.state import RunState, run_state
+from .leaderboard.entrants import describe_entrants, unite_submissions
+from .leaderboard.submission import read_models, read_submission, write_submission
 from .merging.merge import merge
 from .missing_values import choose_missing_rule
 from .plugins import load_plugin, load_plugins
@@ -119,6 +121,7 @@ __all__ = [
     "compare",
     "data_totals",
     "describe_basis",
+    "describe_entrants",
     "draft",
     "draw_alignments",
     "draw_blends",
@@ -175,6 +178,8 @@ __all__ = [
     "plan_table",
     "planned_task_files",
     "provenance",
+    "read_models",
+    "read_submission",
     "recording_names",
     "require_backend",
     "require_recordings",
@@ -188,5 +193,7 @@ __all__ = [
     "state_lines",
     "state_table",
     "task_entry",
+    "unite_submissions",
     "with_folders",
+    "write_submission",
 ]

@@ -40,6 +40,7 @@ __all__ = [
     "encode_json",
     "fit_schema",
     "list_schema",
+    "mapping_schema",
     "read_bytes",
     "read_file",
     "read_json",
@@ -103,6 +104,11 @@ def table_schema(entries: Mapping[str, Any], optional: Mapping[str, Any] | None 
 def list_schema(schema: Any) -> Any:
     """Return the schema of a list whose values all have one schema."""
     return list[schema]
+
+
+def mapping_schema(schema: Any) -> Any:
+    """Return the schema of a table of any names whose values all have one schema."""
+    return dict[Name, schema]
 
 
 def read_file(path: Path, what: str, advice: str, read: Callable[[Path], T]) -> T:

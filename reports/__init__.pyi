@@ -9,6 +9,7 @@ from .bundle.task_page import Figure, TaskPage
 from .export.typesetting import latex_text, markdown_text, paper_tables
 from .filling.curves import FilledCurve
 from .filling.page import FilledPage, render_filled
+from .page.leaderboard import render_leaderboard
 from .page.report import render
 from .run_comparison.render import render_changes
 from .run_comparison.values import Change, ChangeVerdict, RunChanges, ScoreChange
@@ -46,4 +47,5 @@ __all__ = [
     "render",
     "render_changes",
     "render_filled",
+    "render_leaderboard",
 ]

@@ -30,6 +30,8 @@ COMMANDS = {
     "power": "Say which difference how many people can show.",
     "data": "Look for, fetch and verify recordings.",
     "export": "Write the scores and jobs of a run, or tables for papers.",
+    "submit": "Write the records of a run as an archive for a leaderboard.",
+    "leaderboard": "Build a site of what several laboratories have sent.",
     "list": "List tasks, models, metrics, libraries or formats of files.",
     "info": "Show versions, the machine, and how to cite.",
 }

@@ -38,6 +38,8 @@ GIVEN = {
     "power": ("power", "run"),
     "data": ("data", "status", "35_03"),
     "export": ("export", "--out", "run", "--to", "{new}"),
+    "submit": ("submit", "run", "--by", "us", "--to", "{new}.zip"),
+    "leaderboard": ("leaderboard", "submission.zip", "--out", "{new}"),
     "list": ("list", "models"),
     "inspect": ("inspect", "walk.csv"),
     "info": ("info",),
@@ -66,7 +68,8 @@ def folder(tmp_path_factory):
         write_csv(folder / "walks" / f"{name}.csv")
     other = [word.replace("interpolation-1", "interpolation-2") for word in FAST]
     check = ("check", "run", "--reference", "reference.csv", "--update")
-    for arguments in (GIVEN["run"], (*other, "--out", "other"), check):
+    submit = ("submit", "run", "--by", "us")
+    for arguments in (GIVEN["run"], (*other, "--out", "other"), check, submit):
         with _started(arguments, folder, stdout=subprocess.DEVNULL) as process:
             assert process.wait() == 0
     return folder

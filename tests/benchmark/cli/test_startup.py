@@ -50,6 +50,8 @@ def _run(*arguments, **environment):
         (("power", "--help"), "--people"),
         (("data", "--help"), "verify"),
         (("export", "--help"), "Folder of the files"),
+        (("submit", "--help"), "neither recordings nor"),
+        (("leaderboard", "--help"), "Everything is checked first"),
         (("list", "--help"), "libraries"),
         (("info", "--help"), "how to cite"),
     ],

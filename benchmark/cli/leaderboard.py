@@ -1,0 +1,73 @@
+"""``mocapbench leaderboard``: the archives of several laboratories as one site."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from mocapbench import benchmark as bench
+from mocapbench import reports
+from mocapbench.basics.scratch import scratch_folder
+from mocapbench.basics.whole_files import write_text, write_together
+from mocapbench.basics.words import format_count
+from mocapbench.benchmark.cli.console import LiteralConsole
+from mocapbench.benchmark.errors import UsageError
+
+if TYPE_CHECKING:
+    from mocapbench.benchmark import Record
+
+__all__ = ["app"]
+
+app = typer.Typer(add_completion=False)
+
+
+@app.command()
+def leaderboard(
+    archives: Annotated[
+        list[Path], typer.Argument(help="Archives of `mocapbench submit`; the first goes first.")
+    ],
+    out: Annotated[Path, typer.Option(help="The folder of the site.")] = Path("site"),
+) -> None:
+    """Build a site of what several laboratories have sent.
+
+    Everything is checked first: if two archives have different scores of one job or different
+    recordings, or one is of another version of a task, nothing is written.
+    """
+    names = [archive.name for archive in archives]
+    if len({*names}) < len(names):
+        raise UsageError(f"expected archives of different names, got {', '.join(names)}")
+    with scratch_folder() as folder:
+        submissions = {
+            path.name: bench.read_submission(path, folder / path.name) for path in archives
+        }
+        united = bench.unite_submissions(submissions)
+        entrants = bench.describe_entrants(submissions, united)
+        records = [record for of_archive in united.values() for record in of_archive]
+    if not any(record.scores for record in records):
+        raise UsageError("expected scores, got none in any archive; have others sent")
+    page = reports.render_leaderboard(entrants, _tabulate(records), names)
+    _write_pages(out, page, records, f"{len(names)} submissions")
+    LiteralConsole().print(
+        f"{format_count(len(entrants), 'entrant')}: {(out / 'index.html').resolve()}",
+        soft_wrap=True,
+    )
+
+
+def _tabulate(records: Sequence[Record]) -> list[reports.Table]:
+    """Return the table of each task by its first metric."""
+    whole = bench.bundle(records, {})
+    tasks = bench.find_tasks(whole, ())
+    return list(reports.paper_tables(whole, tasks, (), bench.find_labels(whole, ()), ())[1])
+
+
+def _write_pages(out: Path, page: str, records: Sequence[Record], of: str) -> None:
+    """Write all files of the site, or none."""
+    whole = bench.bundle(records, {"merged from": of})
+    out.mkdir(parents=True, exist_ok=True)
+    with write_together(out, "site") as drafts:
+        write_text(drafts / "index.html", page)
+        write_text(drafts / "report.html", reports.render(whole))
+        write_text(drafts / "scores.csv", reports.csv_text(whole.scores))

@@ -1,0 +1,1 @@
+"""A leaderboard: runs of several laboratories, each sent as one small archive, on one site."""
