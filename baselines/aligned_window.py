@@ -107,8 +107,9 @@ class AlignedWindow(FrameImputer, Inductive):
         """
         check_count("n_windows", self.n_windows, 1)
         checked = by_content(check_recordings(recordings))
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.runs_ = [
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
+        self.runs_: list[FrameByChannel] = [
             stretch for recording in map(in_pose_units, checked) for stretch in stretches(recording)
         ]
         return self

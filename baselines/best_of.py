@@ -117,10 +117,11 @@ class BestOf(Imputer, Inductive):
         check_share("shrinkage", self.shrinkage)
         checked = check_recordings(recordings)
         check_spread(checked)
-        self.recordings_ = by_content(checked)
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.candidates_ = FittedCandidates.of(self.recordings_)
-        self.left_out_ = self.candidates_.left_out
+        self.recordings_: tuple[Recording, ...] = by_content(checked)
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
+        self.candidates_: FittedCandidates = FittedCandidates.of(self.recordings_)
+        self.left_out_: Mapping[str, str] | dict[str, str] = self.candidates_.left_out
         return self
 
     def weights(self, recordings: Sequence[Recording]) -> list[pd.DataFrame]:

@@ -112,8 +112,8 @@ class Calibrated(FrameImputer):
         ValueError
             If the model refuses the recordings, or one of its parameters.
         """
-        self.model_ = copy(self.model).fit(recordings, **needed)
-        self.recordings_ = tuple(recordings)
+        self.model_: FrameImputer = copy(self.model).fit(recordings, **needed)
+        self.recordings_: tuple[Recording, ...] = tuple(recordings)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

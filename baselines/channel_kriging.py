@@ -101,8 +101,9 @@ class ChannelKriging(Imputer, Inductive):
         ValueError
             If there is no recording, channels differ, or a name repeats.
         """
-        self.recordings_ = by_content(check_recordings(recordings))
-        self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
+        self.recordings_: tuple[Recording, ...] = by_content(check_recordings(recordings))
+        self.channels_: tuple[str, ...] = self.recordings_[0].channels
+        self.units_: tuple[str, ...] = self.recordings_[0].units
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -262,7 +262,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         )
 
     def _learn(self, rng: np.random.Generator) -> Ascent[State]:
-        self.runs_ = [
+        self.runs_: list[Ascent[State]] = [
             run_from_random_start(
                 self.sequences_, self.cycle_length_, self.hyper_, self.max_iter, rng
             )
@@ -273,7 +273,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
 
     def _describe(self, run: Ascent[State], places: NDArray[np.intp]) -> None:
         self.bound_ = np.array(run.objectives)
-        self.cycles_ = self._restore_units(run.state.cycles.mean.swapaxes(0, 1))
+        self.cycles_: Array = self._restore_units(run.state.cycles.mean.swapaxes(0, 1))
         self.probabilities_ = run.state.labels[places]
         self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)
 

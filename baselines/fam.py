@@ -167,9 +167,10 @@ class FAM(Imputer, Inductive, Aligner):
         check_settings(self.get_params())
         checked = check_recordings(recordings)
         self.recordings_ = checked
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
         ordered, places = by_content(checked), places_by_content(checked)
-        self.scaling_ = Standardisation.of(ordered)
+        self.scaling_: Standardisation = Standardisation.of(ordered)
         scaled = [self.scaling_.apply(recording) for recording in ordered]
         periods = cycle_periods(scaled)
         self.reference_, shifts = self._shift_together(scaled, periods)
@@ -239,10 +240,11 @@ class FAM(Imputer, Inductive, Aligner):
             max_iter=self.max_iter,
             tol=self.tol,
         )
-        self.log_likelihood_, self.converged_ = np.array(fit.objectives), fit.converged
-        self.n_iterations_ = fit.n_iterations
-        self.coefficients_ = find_principal_axes(fit.state.coefficients)
-        self.noise_ = fit.state.noise
+        self.log_likelihood_ = np.array(fit.objectives)
+        self.converged_: bool = fit.converged
+        self.n_iterations_: int = fit.n_iterations
+        self.coefficients_: Array = find_principal_axes(fit.state.coefficients)
+        self.noise_: Array = fit.state.noise
         curves = sample_curves(self.coefficients_, self.cycle_length_)
         self.mean_cycle_ = self.scaling_.restore(curves[0])
         self.components_ = curves[1:] * self.scaling_.scale

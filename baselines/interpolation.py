@@ -44,7 +44,8 @@ class _Interpolation(Interpolator, Inductive):
             If there is no recording, channels differ, or a name repeats.
         """
         checked = check_recordings(recordings)
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
         self.mean_ = visible_means(checked)
         return self
 

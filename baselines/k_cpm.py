@@ -116,7 +116,7 @@ class KCPM(Clusterer, Aligner):
         checked = check_recordings(recordings)
         rng = np.random.default_rng(self.random_state)
         parameters = {k: v for k, v in self.get_params().items() if k != "n_styles"}
-        self.cpm_ = CPM(**{**parameters, "random_state": rng}).fit(checked)
+        self.cpm_: CPM = CPM(**{**parameters, "random_state": rng}).fit(checked)
         self.path_, self.cycle_length_ = self.cpm_.path_, self.cpm_.cycle_length_
         self.labels_, self.cycles_ = cluster_cycles(
             self.cpm_.prototypes_, self.cpm_.scaling_.scale, self.n_styles, self.n_restarts, rng

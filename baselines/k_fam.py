@@ -111,7 +111,7 @@ class KFAM(Clusterer, Aligner):
         check_settings(self.get_params())
         rng = np.random.default_rng(self.random_state)
         parameters = {k: v for k, v in self.get_params().items() if k != "n_styles"}
-        self.fam_ = FAM(**{**parameters, "random_state": rng}).fit(recordings)
+        self.fam_: FAM = FAM(**{**parameters, "random_state": rng}).fit(recordings)
         self.path_, self.cycle_length_ = self.fam_.path_, self.fam_.cycle_length_
         self.labels_, self.cycles_ = cluster_cycles(
             self.fam_.prototypes_, self.fam_.scaling_.scale, self.n_styles, self.n_restarts, rng

@@ -114,7 +114,7 @@ class KNN(Imputer, Inductive):
             differ, or a name repeats.
         """
         check_count("n_neighbors", self.n_neighbors, 1)
-        self.recordings_ = by_content(check_recordings(recordings))
+        self.recordings_: tuple[Recording, ...] = by_content(check_recordings(recordings))
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -131,15 +131,17 @@ class LDS(Imputer, Inductive, Synthesiser):
         check_count("n_states", self.n_states, 1)
         check_count("max_iter", self.max_iter, 1)
         check_positive("tol", self.tol)
-        self.recordings_ = by_content(check_recordings(recordings))
-        self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
-        self.scaling_ = Standardisation.of(self.recordings_)
+        self.recordings_: tuple[Recording, ...] = by_content(check_recordings(recordings))
+        self.channels_: tuple[str, ...] = self.recordings_[0].channels
+        self.units_: tuple[str, ...] = self.recordings_[0].units
+        self.scaling_: Standardisation = Standardisation.of(self.recordings_)
         data = self._observations(self.recordings_)
         first = start_parameters(initial_states(data, self.n_states), data, PRIORS)
         run = expectation_maximisation(first, data, PRIORS, max_iter=self.max_iter, tol=self.tol)
         (self.parameters_, _), self.converged_ = run.state, run.converged
-        self.objective_, self.n_iterations_ = np.array(run.objectives), run.n_iterations
-        self.n_states_ = self.parameters_.n_states
+        self.objective_ = np.array(run.objectives)
+        self.n_iterations_: int = run.n_iterations
+        self.n_states_: int = self.parameters_.n_states
         self._data = data
         self.__dict__.pop("_with_noise_shown", None)  # that of an earlier fit
         return self

@@ -131,15 +131,16 @@ class LGSSM(Clusterer):
         self._check_parameters()
         checked = check_recordings(recordings)
         ordered = by_content(checked)
-        self.scaling_ = Standardisation.of(ordered)
+        self.scaling_: Standardisation = Standardisation.of(ordered)
         data = Sequences.of([self.scaling_.apply(recording).values for recording in ordered])
         states, rng = initial_states(data, self.n_states), np.random.default_rng(self.random_state)
         runs = [self._run(states, data, rng) for _ in range(self.n_restarts)]
         self.restart_objectives_ = np.array([run.state.objective for run in runs])
         best = runs[int(self.restart_objectives_.argmax())]
-        self.mixture_, self.converged_ = best.state, best.converged
+        self.mixture_: Mixture = best.state
+        self.converged_: bool = best.converged
         self.objective_ = np.array(best.objectives)
-        self.n_iterations_ = best.n_iterations
+        self.n_iterations_: int = best.n_iterations
         self.labels_: NDArray[np.intp] = best.state.labels[places_by_content(checked)]
         return self
 

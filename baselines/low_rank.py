@@ -130,8 +130,9 @@ class LowRank(Imputer, Inductive):
         checked = by_content(check_recordings(recordings))
         check_spread(checked)
         self.recordings_ = checked
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.own_means_ = OwnMeans.of(checked)
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
+        self.own_means_: OwnMeans = OwnMeans.of(checked)
         frames = _Frames.of(np.concatenate([self.own_means_.apply(one) for one in checked]))
         self._learn(frames, *_start(frames, self.explained_variance))
         return self
@@ -144,9 +145,11 @@ class LowRank(Imputer, Inductive):
             max_iter=self.max_iter,
             threshold=self.tol * max(float(frames.seen.sum()), 1.0),
         )
-        self.loadings_, self.noise_variance_ = run.state.loadings, run.state.noise
-        self.objective_, self.n_iterations_ = np.array(run.objectives), run.n_iterations
-        self.converged_ = run.converged
+        self.loadings_: Array = run.state.loadings
+        self.noise_variance_: float = run.state.noise
+        self.objective_ = np.array(run.objectives)
+        self.n_iterations_: int = run.n_iterations
+        self.converged_: bool = run.converged
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the mean and variance of hidden entries given the visible ones of their frame.

@@ -111,8 +111,9 @@ class MarkerKriging(Imputer, Inductive):
             repeats.
         """
         check_positive("power", self.power)
-        self.recordings_ = by_content(check_recordings(recordings))
-        self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
+        self.recordings_: tuple[Recording, ...] = by_content(check_recordings(recordings))
+        self.channels_: tuple[str, ...] = self.recordings_[0].channels
+        self.units_: tuple[str, ...] = self.recordings_[0].units
         self.markers_ = marker_places(self.channels_, self.units_)
         return self
 

@@ -138,7 +138,7 @@ class MOHGP(GaussianProcess, Trended):
         super().fit([moved for moved, _ in registered])
         # What `impute` takes. Only complete recordings have moved, of which nothing is to fill.
         named = {recording.name: recording for recording in given}
-        self.recordings_ = {name: named[name] for name in self.recordings_}
+        self.recordings_: dict[str, Recording] = {name: named[name] for name in self.recordings_}
         self.clocks_ = {moved.name: clock for moved, clock in registered}
         return self
 

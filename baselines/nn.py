@@ -98,8 +98,9 @@ class NN(Imputer, Inductive):
             number of at least 0 for each channel.
         """
         checked = by_content(check_recordings(recordings))
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.frames_ = stack(checked)
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
+        self.frames_: FrameByChannel = stack(checked)
         self.weights_ = _weights(self.weights, self.channels_) * pose_factors(self.units_)
         return self
 

@@ -109,7 +109,8 @@ class Oracle(Imputer, Synthesiser, Trended):
         self.process_ = process
         checked = by_content(check_recordings(recordings))
         check_outputs(checked, self.process_)
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
         self.times_ = np.unique(np.concatenate([recording.times for recording in checked]))
         self._parent = self.process_.parent.covariance(self.times_)
         self._within = self.process_.child.covariance(self.times_)

@@ -103,7 +103,7 @@ class PCARegression(Imputer, Inductive):
         """
         check_positive("hidden_weight", self.hidden_weight)
         check_share("share", self.share)
-        self.recordings_ = by_content(check_recordings(recordings))
+        self.recordings_: tuple[Recording, ...] = by_content(check_recordings(recordings))
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

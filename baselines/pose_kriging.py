@@ -191,13 +191,14 @@ class PoseKriging(FrameImputer, Inductive):
         check_share("symmetry", self.symmetry)
         check_share("least_explained", self.least_explained)
         checked = by_content(check_recordings(recordings))
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
         ahead = [face_ahead(recording)[0] for recording in checked]
-        self.directions_ = mean_directions(ahead)
+        self.directions_: Array = mean_directions(ahead)
         usable = [in_pose_units(self._wrap_angles(one)) for one in with_steps(ahead)]
-        self.names_ = tuple(recording.name for recording in usable)
+        self.names_: tuple[str, ...] = tuple(recording.name for recording in usable)
         self.symmetries_ = find_symmetries(usable)
-        self.matchers_ = [
+        self.matchers_: list[PoseViterbi] = [
             PoseViterbi(self.smoothness, steps=self.steps).fit([image.of_recording(recording)])
             for image in self.symmetries_
             for recording in usable
@@ -206,7 +207,7 @@ class PoseKriging(FrameImputer, Inductive):
         frames = np.concatenate(
             [each.frames_ - each.frames_.mean(axis=0) for each in self.matchers_]
         )
-        self.total_variance_ = float(frames.var(axis=0).sum()) or 1.0
+        self.total_variance_: float = float(frames.var(axis=0).sum()) or 1.0
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -108,7 +108,8 @@ class PoseViterbi(FrameImputer, Inductive):
         check_share("subject_offset", self.subject_offset)
         check_count("steps", self.steps, 1)
         checked = by_content(check_recordings(recordings))
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
         moved = [in_pose_units(recording) for recording in checked]
         stretches = [_refine_stretch(each, self.steps) for each in complete_stretches(moved)]
         self.frames_ = np.concatenate(stretches)

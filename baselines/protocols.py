@@ -31,15 +31,25 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import FunctionType
-from typing import ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from sklearn.base import BaseEstimator
 
 from mocapbench.basics.blas import limit_blas
 from mocapbench.basics.numbers import real_numbers
 from mocapbench.datasets import FrameByChannel, Frames, Recording
+
+if TYPE_CHECKING:  # scikit-learn has no types, so that with its class those of all models are lost
+
+    class BaseEstimator:
+        """What models have of scikit-learn's estimators."""
+
+        def get_params(self, deep: bool = True) -> dict[str, Any]: ...
+
+        def set_params(self, **params: Any) -> Self: ...
+else:
+    from sklearn.base import BaseEstimator
 
 __all__ = [
     "Aligner",
@@ -173,7 +183,7 @@ def _fitting(what: str, given: ArrayLike, recording: Recording) -> NDArray[np.fl
     return values
 
 
-class Model(BaseEstimator, ABC):  # type: ignore[misc]
+class Model(BaseEstimator, ABC):
     """A scikit-learn estimator whose data are recordings.
 
     As in scikit-learn, ``__init__`` only stores its parameters, `fit` validates them and learns,

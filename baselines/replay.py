@@ -65,7 +65,7 @@ class Replay(Synthesiser):
             If there is no recording, channels differ, a name repeats, or a recording has a channel
             without a visible entry.
         """
-        self.recordings_ = by_content(check_recordings(recordings))
+        self.recordings_: tuple[Recording, ...] = by_content(check_recordings(recordings))
         for recording in self.recordings_:
             _check_visible(recording)
         return self

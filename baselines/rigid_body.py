@@ -118,7 +118,8 @@ class RigidBody(Imputer, Inductive):
         """
         check_positive("power", self.power)
         checked = check_recordings(recordings)
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
         self.markers_ = marker_places(self.channels_, self.units_)
         self._curves = PchipImputer().fit(checked)
         return self

@@ -66,7 +66,7 @@ class Trivial(Imputer, Inductive):
         ValueError
             If there is no recording, channels differ, or a name repeats.
         """
-        self.recordings_ = by_content(check_recordings(recordings))
+        self.recordings_: tuple[Recording, ...] = by_content(check_recordings(recordings))
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

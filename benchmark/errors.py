@@ -47,7 +47,7 @@ class Interruption(KeyboardInterrupt):
 
     def __init__(self, number: int) -> None:
         super().__init__(number)
-        self.exit_code = ExitCode(128 + number)
+        self.exit_code: ExitCode = ExitCode(128 + number)
 
 
 class OutputError(SystemExit):
@@ -62,7 +62,7 @@ class OutputError(SystemExit):
     """
 
     def __init__(self, stream: str, error: OSError) -> None:
-        self.exit_code = _CODES_OF_OUTPUT.get(error.errno or 0, ExitCode.USAGE)
+        self.exit_code: ExitCode = _CODES_OF_OUTPUT.get(error.errno or 0, ExitCode.USAGE)
         super().__init__(int(self.exit_code))
         self._message = f"error: cannot write to {stream}: {error.strerror}; make room for it\n"
 

@@ -58,7 +58,7 @@ class Archive:
     """
 
     def __init__(self, libraries: Mapping[str, Library]) -> None:
-        self.libraries = dict(libraries)
+        self.libraries: dict[str, Library] = dict(libraries)
 
     def available(self, uri: str) -> bool:
         """Return whether the recording can be read without a network."""

@@ -104,13 +104,15 @@ class CMULibrary(Library):
         folder = data_dir or os.environ.get("MOCAPBENCH_DATA")
         super().__init__(Path(folder) if folder else None)
         cache = cache_dir or os.environ.get("MOCAPBENCH_CACHE")
-        self.cache_dir = Path(cache or platformdirs.user_cache_dir("mocapbench"))
-        self.digests = DigestRegistry(
+        self.cache_dir: Path = Path(cache or platformdirs.user_cache_dir("mocapbench"))
+        self.digests: DigestRegistry = DigestRegistry(
             registered_digests() if known is None else known,
             self.cache_dir / "digests.tsv",
             _DIVERSE,
         )
-        self.base_url, self.retries, self.backoff = base_url, retries, backoff
+        self.base_url: str = base_url
+        self.retries: int = retries
+        self.backoff: float = backoff
 
     def where(self, key: str) -> str:
         """Return the path of the .amc file, or an empty string unless both files are here."""

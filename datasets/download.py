@@ -41,7 +41,7 @@ class Downloader:
     """
 
     def __init__(self, base_url: str, folder: Path, *, retries: int, backoff: float) -> None:
-        self.base_url = base_url.rstrip("/") + "/"
+        self.base_url: str = base_url.rstrip("/") + "/"
         self.folder = folder
         self.retries = retries
         self.backoff = backoff

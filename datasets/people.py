@@ -62,7 +62,8 @@ class People:
     """
 
     def __init__(self, text: str, file: str = "people.tsv", library: str = "cmu") -> None:
-        self.file, self.library = file, library
+        self.file: str = file
+        self.library: str = library
         self._rows: dict[str, Mapping[str, str]] = {}
         self._lines: dict[str, int] = {}
         self._by_subject: dict[str, list[str]] = {}

@@ -53,19 +53,23 @@ class CycleAligner(Aligner):
         """
         self._check_parameters()
         checked = check_recordings(recordings)
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
         ordered, places = by_content(checked), places_by_content(checked)
-        self.scaling_ = Standardisation.of(ordered)
-        self.names_ = tuple(recording.name for recording in ordered)
-        self.sequences_ = self._sequences(ordered)
+        self.scaling_: Standardisation = Standardisation.of(ordered)
+        self.names_: tuple[str, ...] = tuple(recording.name for recording in ordered)
+        self.sequences_: Sequences = self._sequences(ordered)
         self.cycle_length_ = self.n_states or default_states(self.sequences_, self.max_jump)
-        self.hyper_ = self._hyperparameters()
+        self.hyper_: Hyperparameters = self._hyperparameters()
         run = self._learn(np.random.default_rng(self.random_state))
-        self.state_, self.converged_ = run.state, run.converged
-        self.n_iterations_ = run.n_iterations
+        self.state_: State = run.state
+        self.converged_: bool = run.converged
+        self.n_iterations_: int = run.n_iterations
         paths = best_paths(self.state_, self.sequences_)
         self.path_ = tuple(paths[k] for k in places)
-        self.fitted_ = {r.name: (r, path) for r, path in zip(checked, self.path_, strict=True)}
+        self.fitted_: dict[str, tuple[Recording, StatePath]] = {
+            r.name: (r, path) for r, path in zip(checked, self.path_, strict=True)
+        }
         self._describe(run, places)
         return self
 

@@ -89,7 +89,7 @@ class FittedCandidates:
         self, models: Mapping[str, FrameImputer], left_out: Mapping[str, str] | None = None
     ) -> None:
         self.models = models
-        self.left_out = left_out or {}
+        self.left_out: Mapping[str, str] | dict[str, str] = left_out or {}
 
     @classmethod
     def of(cls, recordings: Sequence[Recording]) -> Self:

@@ -57,7 +57,7 @@ class Jointly(Imputer, Inductive):
             too long; or if the process cannot learn from them.
         """
         self._keep(recordings)
-        self.process_ = copy(self.process).fit(_some_incomplete(recordings))
+        self.process_: GaussianProcess = copy(self.process).fit(_some_incomplete(recordings))
         return self
 
     def with_recordings(self, recordings: Sequence[Recording]) -> Self:
@@ -76,8 +76,9 @@ class Jointly(Imputer, Inductive):
     def _keep(self, recordings: Sequence[Recording]) -> None:
         largest = max(recordings, key=lambda recording: recording.values.size)
         _check_work([*recordings, largest])
-        self.recordings_ = tuple(recordings)
-        self.channels_, self.units_ = largest.channels, largest.units
+        self.recordings_: tuple[Recording, ...] = tuple(recordings)
+        self.channels_: tuple[str, ...] = largest.channels
+        self.units_: tuple[str, ...] = largest.units
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return what the process predicts of each recording beside its own, calibrated.

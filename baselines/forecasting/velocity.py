@@ -59,7 +59,8 @@ class ConstantVelocity(Forecaster, Inductive):
             If there is no recording, channels differ, or a name repeats.
         """
         checked = check_recordings(recordings)
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -113,7 +113,8 @@ class WindowForecaster(Forecaster, Inductive):
         check_count("n_ahead", self.n_ahead, 1)
         self._check_parameters()
         checked = check_recordings(recordings)
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
         windows = cut_windows(self._prepare(by_content(checked)), self.n_seen + self.n_ahead)
         self._learn(windows[:, : self.n_seen], windows[:, self.n_seen :])
         return self

@@ -112,16 +112,17 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         """
         checked = check_recordings(recordings)
         models = self._build_models(checked[0].channels)
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
         self.models_ = tuple(
             model.fit([recording.select([channel]) for recording in checked])
             for channel, model in models.items()
         )
-        self.log_likelihood_ = sum(model.log_likelihood_ for model in self.models_)
-        self.converged_ = all(model.converged_ for model in self.models_)
-        self.n_iterations_ = sum(model.n_iterations_ for model in self.models_)
-        self.n_evaluations_ = sum(model.n_evaluations_ for model in self.models_)
-        self.solver_ = "+".join(sorted({model.solver_ for model in self.models_}))
+        self.log_likelihood_: float = sum(model.log_likelihood_ for model in self.models_)
+        self.converged_: bool = all(model.converged_ for model in self.models_)
+        self.n_iterations_: int = sum(model.n_iterations_ for model in self.models_)
+        self.n_evaluations_: int = sum(model.n_evaluations_ for model in self.models_)
+        self.solver_: str = "+".join(sorted({model.solver_ for model in self.models_}))
         return self
 
     def _build_models(self, channels: Sequence[str]) -> Mapping[str, Single]:

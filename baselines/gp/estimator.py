@@ -186,11 +186,14 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
             If the covariance is singular at a start.
         """
         checked = by_content(check_recordings(recordings))
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.tree_ = self.grow([recording.name for recording in checked])
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
+        self.tree_: Tree = self.grow([recording.name for recording in checked])
         self._check_parameters()
-        self.scaling_ = Standardisation.of(checked)
-        self.recordings_ = {recording.name: recording for recording in checked}
+        self.scaling_: Standardisation = Standardisation.of(checked)
+        self.recordings_: dict[str, Recording] = {
+            recording.name: recording for recording in checked
+        }
         self._replicates = Replicates.align([self.scaling_.apply(each) for each in checked])
         self._learn(self.reduce(self._replicates))
         return self
@@ -199,17 +202,20 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         """Find the parameters, and set the attributes that follow from them."""
         kernel, start = KERNELS[self.kernel], self._start(reduction)
         solvers = PLANS[self.solver](kernel, reduction.blocks, start)
-        self.training_ = self._search(reduction, solvers, start)
+        self.training_: tuple[Search, ...] = self._search(reduction, solvers, start)
         best = max(self.training_, key=lambda search: search.log_likelihood)
-        self.process_ = FittedProcess(kernel, reduction, solvers, best.parameters, self.scaling_)
-        self.solver_ = solver_names(solvers)
-        self.engine_ = describe_work(solvers, reduction.blocks, start)
-        self.parameters_ = best.parameters
-        self.log_likelihood_ = best.log_likelihood + self.scaling_.log_jacobian
-        self.bic_ = best.parameters.flat.size * np.log(self.scaling_.counts.sum())
-        self.bic_ -= 2.0 * self.log_likelihood_
-        self.converged_, self.n_iterations_ = best.converged, best.n_iterations
-        self.n_evaluations_ = best.n_evaluations
+        self.process_: FittedProcess = FittedProcess(
+            kernel, reduction, solvers, best.parameters, self.scaling_
+        )
+        self.solver_: str = solver_names(solvers)
+        self.engine_: str = describe_work(solvers, reduction.blocks, start)
+        self.parameters_: Parameters = best.parameters
+        self.log_likelihood_: float = best.log_likelihood + self.scaling_.log_jacobian
+        complexity = best.parameters.flat.size * np.log(self.scaling_.counts.sum())
+        self.bic_: float = complexity - 2.0 * self.log_likelihood_
+        self.converged_: bool = best.converged
+        self.n_iterations_: int = best.n_iterations
+        self.n_evaluations_: int = best.n_evaluations
 
     def _search(
         self, reduction: Reduction, solvers: Sequence[Solver], start: Parameters

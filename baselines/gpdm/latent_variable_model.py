@@ -78,11 +78,14 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
         dynamics, learning = self._dynamics(), self._learning()
         checked = self._check_recordings(recordings)
         self.recordings_ = checked
-        self.sequences_ = TrainingSequences.of([in_pose_units(each) for each in checked])
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.matcher_ = PoseViterbi().fit(checked)
+        self.sequences_: TrainingSequences = TrainingSequences.of(
+            [in_pose_units(each) for each in checked]
+        )
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
+        self.matcher_: PoseViterbi = PoseViterbi().fit(checked)
         steps = [np.diff(recording.times) for recording in checked if len(recording.times) > 1]
-        self.frame_seconds_ = float(np.median(steps[0]))
+        self.frame_seconds_: float = float(np.median(steps[0]))
         y = self.sequences_.y
         x = whitened_components(y, self.n_latent)
         posterior = JointPosterior(
@@ -96,8 +99,8 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
             x, dynamics.start, log_start(posterior.reconstruction), np.ones(y.shape[1])
         )
         rng = np.random.default_rng(self.random_state)
-        self.estimate_ = learning.learn(posterior, start, rng)
-        self.conditional_ = Conditional.of(posterior, self.estimate_)
+        self.estimate_: PointEstimate = learning.learn(posterior, start, rng)
+        self.conditional_: Conditional = Conditional.of(posterior, self.estimate_)
         self.kernel_properties_ = self._properties(posterior)
         return self
 

@@ -56,7 +56,8 @@ class MaximumAPosteriori(Learning):
     """
 
     def __init__(self, n_rounds: int, n_steps: int) -> None:
-        self.n_rounds, self.n_steps = n_rounds, n_steps
+        self.n_rounds: int = n_rounds
+        self.n_steps: int = n_steps
 
     def learn(
         self, posterior: JointPosterior, start: PointEstimate, rng: np.random.Generator

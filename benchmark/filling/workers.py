@@ -83,7 +83,8 @@ class Workers:
     """
 
     def __init__(self, count: int, plugins: tuple[Path, ...] = (), seed: int = 0) -> None:
-        self._count, self.seed = count, seed
+        self._count = count
+        self.seed: int = seed
         self._numbers = itertools.count()
         memory = int(memory_share(count) * 2**30)
         self._attempt = partial(_attempt_in_child, memory=memory, seed=seed, plugins=plugins)

@@ -42,7 +42,8 @@ class Filled:
     """
 
     def __init__(self, given: Recording, result: FilledRecording) -> None:
-        self.given, self.result = given, result
+        self.given: Recording = given
+        self.result: FilledRecording = result
 
     @cached_property
     def recording(self) -> Recording:

@@ -72,7 +72,7 @@ class GapFiller(OneToOneFeatureMixin, TransformerMixin, BaseEstimator):  # type:
         require_model(self.model)
         if not 0 < self.rate < np.inf:
             raise ValueError(f"expected rate= in frames per second, above 0, got {self.rate}")
-        self.learnt_ = self._record("learnt", values)
+        self.learnt_: Recording = self._record("learnt", values)
         return self
 
     def transform(self, X: ArrayLike) -> FrameByChannel:

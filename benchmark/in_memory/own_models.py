@@ -37,7 +37,7 @@ class ArrayImputer(Imputer, Inductive):
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Fit the imputer to the frames of all recordings."""
         frames = np.concatenate([recording.values for recording in recordings])
-        self.imputer_ = clone(self.imputer).fit(frames)
+        self.imputer_: Any = clone(self.imputer).fit(frames)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -63,7 +63,9 @@ def name_model(model: ModelLike) -> str:
 
 
 @contextmanager
-def lend_models(models: Mapping[str, ModelLike]) -> Iterator[Mapping[str, Callable[[], Model]]]:
+def lend_models(
+    models: Mapping[str, ModelLike],
+) -> Iterator[Mapping[str, Callable[[], FrameImputer]]]:
     """Register the user's own models within the context, and yield what builds each of them.
 
     Parameters

@@ -34,7 +34,8 @@ class ThisProcess:
     """
 
     def __init__(self, own: Mapping[str, Callable[[], FrameImputer]], seed: int) -> None:
-        self._own, self.seed = own, seed
+        self._own = own
+        self.seed: int = seed
 
     def keep(self, problem: GapProblem) -> GapProblem:
         """Return the problem, as it need not be handed over."""

@@ -69,10 +69,11 @@ class CommandModel(FrameImputer):
             See `mocapbench.benchmark.programs.running.run_program`.
         """
         checked = by_content(check_recordings(recordings))
-        self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.names_ = frozenset(recording.name for recording in checked)
-        self.recordings_ = () if self.learns_in_fit else checked
-        self.learnt_ = self._learn(checked) if self.learns_in_fit else {}
+        self.channels_: tuple[str, ...] = checked[0].channels
+        self.units_: tuple[str, ...] = checked[0].units
+        self.names_: frozenset[str] = frozenset(recording.name for recording in checked)
+        self.recordings_: tuple[Recording, ...] = () if self.learns_in_fit else checked
+        self.learnt_: Mapping[str, bytes] = self._learn(checked) if self.learns_in_fit else {}
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

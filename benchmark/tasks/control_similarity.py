@@ -55,7 +55,7 @@ _CASES = (
     *_pairs(SYNTHETIC, SYNTHETIC, synthetic=True),
 )
 
-control_similarity = Task(
+control_similarity: Task = Task(
     name="control-similarity",
     version=1,
     page=PAGE,

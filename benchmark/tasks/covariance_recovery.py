@@ -40,7 +40,7 @@ _CASE = Case(
     {"noise": 0.001, "outputs": 3, "children": 5},
 )
 
-covariance_recovery = Task(
+covariance_recovery: Task = Task(
     name="covariance-recovery",
     version=1,
     page=PAGE,

@@ -86,7 +86,7 @@ _CASES = (
 _IN_MISSING_FRAMES = ("gpdm-map-viterbi", "gpdm-fixed-alpha-viterbi", "cyclic-alignment")
 """The smoke profile tries them there, the first two with other starts."""
 
-golf_swings = Task(
+golf_swings: Task = Task(
     name="golf-swings",
     version=1,
     page=PAGE,

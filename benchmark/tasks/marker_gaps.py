@@ -38,7 +38,7 @@ LONGEST_RECORDING = 600  # frames at 120 per second
 N_BESIDE = 5  # visible frames on either side of a gap, at the least
 N_FOLDS = 12
 
-LIMBS = {
+LIMBS: dict[str, tuple[str, ...]] = {
     "left arm": ("lhumerus", "lradius", "lwrist", "lhand", "lfingers", "lthumb"),
     "right arm": ("rhumerus", "rradius", "rwrist", "rhand", "rfingers", "rthumb"),
     "left leg": ("lfemur", "ltibia", "lfoot", "ltoes"),
@@ -180,7 +180,7 @@ _SLOW = ("hgp", "mohgp")
 _NOT_QUICK = (*_SLOW, "cyclic-alignment", "gp-independent", "lmc-independent", "moa")
 """Models that take a second or more for each of the default profile's many jobs."""
 
-marker_gaps = Task(
+marker_gaps: Task = Task(
     name="marker-gaps",
     version=1,
     page=PAGE,

@@ -108,7 +108,7 @@ _CASES = (
     *(_synthetic(number, uri) for number, uri in enumerate(SYNTHETIC_TESTS, start=1)),
 )
 
-missing_frames = Task(
+missing_frames: Task = Task(
     name="missing-frames",
     version=1,
     page=PAGE,

@@ -156,7 +156,7 @@ _SOCCER = (
     _synthetic(("01_05", "02_05"), ("03_05", "04_05", "05_05")),
 )
 
-walking_synthesis = Task(
+walking_synthesis: Task = Task(
     name="walking-synthesis",
     version=1,
     page=WALKING_PAGE,
@@ -171,7 +171,7 @@ walking_synthesis = Task(
 )
 """Tables 14–15: one component a layer on three walks, and three components on two."""
 
-exaggerated_synthesis = Task(
+exaggerated_synthesis: Task = Task(
     name="exaggerated-synthesis",
     version=1,
     page=EXAGGERATED_PAGE,
@@ -182,7 +182,7 @@ exaggerated_synthesis = Task(
 )
 """Table 16: a walk, and a walk with an exaggerated stride."""
 
-soccer_synthesis = Task(
+soccer_synthesis: Task = Task(
     name="soccer-synthesis",
     version=1,
     page=SOCCER_PAGE,

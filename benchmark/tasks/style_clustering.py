@@ -48,7 +48,7 @@ _CASES = (
     *_cases(SYNTHETIC, "synthetic ", synthetic=True),
 )
 
-style_clustering = Task(
+style_clustering: Task = Task(
     name="style-clustering",
     version=1,
     page=PAGE,

@@ -36,7 +36,7 @@ SYNTHETIC_TRAINING = tuple(f"gait:01_{trial:02}" for trial in (1, 2, 6, 7, 11, 1
 SYNTHETIC_TEST = "gait:01_16"
 
 _ARM = ("humerus", "radius", "wrist", "hand", "thumb")
-PARTS = {
+PARTS: dict[str, tuple[str, ...]] = {
     "right leg": ("rfemur", "rtibia", "rfoot", "rtoes"),
     "upper body": (
         *("thorax", "lowerneck", "upperneck", "head"),
@@ -91,7 +91,7 @@ def _synthetic(part: str) -> Case:
 
 _CASES = (*map(_real, PARTS), *map(_synthetic, PARTS))
 
-subject_35_missing = Task(
+subject_35_missing: Task = Task(
     name="subject-35-missing",
     version=1,
     page=PAGE,

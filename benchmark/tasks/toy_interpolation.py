@@ -34,7 +34,7 @@ __all__ = [
 
 N_POINTS = 50
 RBF = {"kernel": "rbf"}
-THREE = {"n_components": 3, **RBF}
+THREE: dict[str, int | str] = {"n_components": 3, **RBF}
 
 SMOKE_BUDGET = {"max_iter": 5, "n_restarts": 1}
 
@@ -158,7 +158,7 @@ def _paper(cases: tuple[Case, ...]) -> Profile:
     return Profile(tuple(case.name for case in cases), folds=5)
 
 
-toy_interpolation_1 = Task(
+toy_interpolation_1: Task = Task(
     name="toy-interpolation-1",
     version=1,
     page=ONE_INCOMPLETE_PAGE,
@@ -174,7 +174,7 @@ toy_interpolation_1 = Task(
 )
 """Tables 1–3: the last child has 5 of 50 points visible, the others are complete."""
 
-toy_interpolation_2 = Task(
+toy_interpolation_2: Task = Task(
     name="toy-interpolation-2",
     version=1,
     page=TOO_FEW_COMPONENTS_PAGE,
@@ -190,7 +190,7 @@ toy_interpolation_2 = Task(
 )
 """Tables 4–6: one component a layer in the hierarchical model, a tuned LMC in the reference."""
 
-toy_interpolation_3 = Task(
+toy_interpolation_3: Task = Task(
     name="toy-interpolation-3",
     version=1,
     page=MUCH_NOISE_PAGE,

@@ -54,7 +54,7 @@ _CASES = tuple(
     for number, design in enumerate(ONE_INCOMPLETE, start=1)
 )
 
-toy_synthesis = Task(
+toy_synthesis: Task = Task(
     name="toy-synthesis",
     version=1,
     page=PAGE,

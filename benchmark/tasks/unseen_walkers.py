@@ -110,7 +110,7 @@ _MATERN = {"kernel": "matern32"}
 _SLOW = ("gpdm",)
 """What takes minutes to draw from, for each person."""
 
-unseen_walkers = Task(
+unseen_walkers: Task = Task(
     name="unseen-walkers",
     version=1,
     page=UNSEEN_WALKERS_PAGE,

@@ -66,7 +66,7 @@ _CASES = (
     ),
 )
 
-upper_body_missing = Task(
+upper_body_missing: Task = Task(
     name="upper-body-missing",
     version=1,
     page=PAGE,

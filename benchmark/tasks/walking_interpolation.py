@@ -58,7 +58,7 @@ _CASES = (
     _case("synthetic observed 40", 40, SYNTHETIC_WALKERS, synthetic=True),
 )
 
-walking_interpolation = Task(
+walking_interpolation: Task = Task(
     name="walking-interpolation",
     version=1,
     page=PAGE,

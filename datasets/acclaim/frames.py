@@ -27,7 +27,7 @@ class Layout:
         self._names = [name for name, _ in counts]
         ends = [*accumulate(1 + count for _, count in counts)]
         self._starts = [0, *ends][: len(counts)]
-        self.n_words = sum(1 + count for _, count in counts)
+        self.n_words: int = sum(1 + count for _, count in counts)
         self._places = sorted({*range(self.n_words)} - {*self._starts})
 
     def fits(self, texts: Sequence[str], words: Sequence[str]) -> bool:

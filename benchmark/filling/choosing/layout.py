@@ -70,8 +70,11 @@ class EpisodeLayout:
     """
 
     def __init__(self, hidden: Mask, used: Mask, rng: np.random.Generator) -> None:
-        self.blocked, self.used, self.rng = hidden.copy(), used, rng
-        self.start, self.stop = 0, len(hidden)
+        self.blocked: Mask = hidden.copy()
+        self.used: Mask = used
+        self.rng = rng
+        self.start: int = 0
+        self.stop: int = len(hidden)
         self.copies: list[tuple[Gap, Gap]] = []
 
     def confine(self, start: int, stop: int) -> None:

@@ -19,7 +19,7 @@ class ClientWatch(SchedulerPlugin):
     """
 
     def __init__(self, client: str, run: str) -> None:
-        self.name = f"{run}-watch"
+        self.name: str = f"{run}-watch"
         self._client = client
         self._run = run
 

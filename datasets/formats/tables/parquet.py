@@ -99,7 +99,7 @@ class ParquetTable:
         self.file = file
         self.names: list[str] = read["names"].tolist()
         self.numbers = {k: read["values"][:, k] for k in np.flatnonzero(read["is_number"]).tolist()}
-        self.rows = range(len(read["values"]))
+        self.rows: range = range(len(read["values"]))
         self._read = read
 
     def texts(self, columns: Sequence[int]) -> dict[int, list[str]]:
