@@ -14,6 +14,7 @@ import numpy as np
 from mocapbench.baselines.common.checks import check_given, check_recordings, pool
 from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.scaling import Standardisation
+from mocapbench.baselines.common.standing import stand_alike
 from mocapbench.baselines.kriging.channel_process import (
     choose_near,
     learn_channel_process,
@@ -52,6 +53,8 @@ class ChannelKriging(Imputer, Inductive):
     long as those to fill. These gaps say, too, how far variances are right. The process is
     conditioned on the frames of all recordings, those of the recording to fill included; of more
     than 3000, on those of others that are most like the frames to fill.
+    Markers are seen from the body: their path, and which way each recording faces, are taken out
+    before, as far as three of them are visible throughout the recording to fill.
     Channels hidden in the same frames are filled together, with parameters of their own; where
     others are hidden besides, these are interpolated over time for the comparison.
 
@@ -89,6 +92,7 @@ class ChannelKriging(Imputer, Inductive):
     """
 
     family: ClassVar[str] = "Across channels"
+    provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"moves along"}
 
     max_frames = 3000
     learns_in_fit = False
@@ -120,9 +124,11 @@ class ChannelKriging(Imputer, Inductive):
 
     def _fill_recording(self, recording: Recording) -> Prediction:
         pooled = pool(self.recordings_, [recording])
-        scaling = Standardisation.of(pooled)
-        stacked = stack_frames([scaling.apply(each) for each in pooled])
         own = [each.name for each in pooled].index(recording.name)
+        standing = stand_alike(pooled, own)
+        alike = [place.take_out(each) for place, each in zip(standing, pooled, strict=True)]
+        scaling = Standardisation.of(alike)
+        stacked = stack_frames([scaling.apply(each) for each in alike])
         mean, variance = np.zeros_like(recording.values), np.ones_like(recording.values)
         for channels in hidden_together(~recording.visible):
             hidden = ~recording.visible[:, channels[0]]
@@ -130,7 +136,7 @@ class ChannelKriging(Imputer, Inductive):
             duration = float(np.median([len(gap) + 1 for gap in runs(hidden)]))
             mean[place], variance[place] = _moments(*stacked, own, channels, duration)
         mean, variance = scaling.mean + scaling.scale * mean, scaling.scale**2 * variance
-        return Prediction.around(recording, mean, variance)
+        return standing[own].put_back(recording, mean, variance)
 
 
 def _moments(

@@ -1,4 +1,4 @@
-"""A check of models that fill a motion alike wherever it stands and faces."""
+"""Checks of models that fill a motion alike wherever it stands and faces."""
 
 from __future__ import annotations
 
@@ -11,15 +11,21 @@ from scipy.spatial.transform import Rotation
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.testing.errors import require
 from mocapbench.benchmark.testing.subject import Subject
-from mocapbench.datasets import Recording, joint_positions, open_archive
+from mocapbench.datasets import Recording, joint_positions, joint_trajectories, open_archive
 
-__all__ = ["fills_alike_however_it_faces", "rotate_motion"]
+__all__ = [
+    "fills_alike_however_it_faces",
+    "fills_markers_alike_wherever_they_stand",
+    "rotate_motion",
+]
 
 _WALKS = ("gait:01_01", "gait:02_01", "gait:03_01")
 """Generated walkers, of whom the last one is filled."""
 _DEGREES = (90.0, 180.0, -37.0)
 _AWAY = np.array([40.0, 0.0, -70.0])
 """How far a motion is moved over the ground, in the unit of the root's path."""
+_HIDDEN = ("rradius.", "rwrist.", "rhand.", "rfingers.", "rthumb.")
+"""Joints that a gap of markers hides: a forearm and its hand."""
 _MOST = 0.01
 """What turns may change, as a share of the error."""
 
@@ -47,6 +53,36 @@ def fills_alike_however_it_faces(subject: Subject) -> None:
         )
 
 
+def fills_markers_alike_wherever_they_stand(subject: Subject) -> None:
+    """Check that markers that are turned about the vertical, and moved, are filled alike."""
+    *training, walk = _marked_walks()
+    model, gap = subject.fit_model(training), np.zeros(walk.values.shape, dtype=bool)
+    gap[15:30, _list_hidden(walk)] = True
+    filled = _fill(model, walk, gap).values
+    error = float(np.sqrt(np.mean((filled - walk.values)[gap] ** 2)))
+    for degrees in _DEGREES:
+        moved = _move_markers(walk, degrees)
+        expected = _move_markers(walk.with_values(filled), degrees).values
+        change = (_fill(model, moved, gap).values - expected)[gap]
+        share = float(np.sqrt(np.mean(change**2))) / error
+        require(
+            share <= _MOST,
+            f"the same fill of markers that are turned by {degrees:g}° and moved",
+            f"markers that differ by {share:.2g} of their error",
+            "take out where each recording stands and faces, or leave out 'moves along'",
+        )
+
+
+def _move_markers(walk: Recording, degrees: float) -> Recording:
+    about = Rotation.from_euler("y", degrees, degrees=True)
+    moved = about.apply(walk.values.reshape(-1, 3).copy()) + _AWAY
+    return walk.with_values(moved.reshape(walk.values.shape))
+
+
+def _list_hidden(walk: Recording) -> list[int]:
+    return [d for d, name in enumerate(walk.channels) if name.startswith(_HIDDEN)]
+
+
 def rotate_motion(recording: Recording, degrees: float, away: Array | float = 0.0) -> Recording:
     """Return a complete motion of the Acclaim format turned about the y axis, its path shifted."""
     values, names = recording.values.copy(), recording.channels
@@ -63,6 +99,13 @@ def rotate_motion(recording: Recording, degrees: float, away: Array | float = 0.
 def _walks() -> tuple[Recording, ...]:
     archive, frames = open_archive(), np.arange(0, 200, 4)
     return tuple(archive.recording(uri).frames(frames) for uri in _WALKS)
+
+
+@cache
+def _marked_walks() -> tuple[Recording, ...]:
+    archive = open_archive()
+    walks = zip(_WALKS, _walks(), strict=True)
+    return tuple(joint_trajectories(archive.skeleton(uri), walk) for uri, walk in walks)
 
 
 def _fill(model: object, walk: Recording, gap: Array) -> Recording:

@@ -15,6 +15,7 @@ from mocapbench.baselines import (
     Imputer,
     Inductive,
     Interpolator,
+    PCARegression,
     PoseViterbi,
     Prediction,
     Synthesiser,
@@ -290,6 +291,12 @@ class Compass(PoseViterbi):
     provides = PoseViterbi.provides | {"turns along"}
 
 
+class Surveyor(PCARegression):
+    """Matches markers where they are in the room."""
+
+    provides = PCARegression.provides | {"moves along"}
+
+
 class Overwrites(_Mean):
     """Puts its mean over what is visible."""
 
@@ -422,6 +429,7 @@ NONCONFORMING = {
     Unseeded: "the same answer from the same seed",
     Pretends: "expected impute_uncalibrated to have the means of impute, got a difference of",
     FirstOnly: "recordings in another order, got a difference of",
+    Surveyor: "the same fill of markers that are turned by 90° and moved, got markers that differ",
     Compass: "the same fill of a walk that is turned by 90° and moved, got joints that differ",
     FirstOfNames: "recordings with other names, got a difference of",
     Overwrites: "visible entries copied into the mean",
