@@ -14,7 +14,6 @@ import numpy as np
 from mocapbench.baselines.common.checks import check_given, check_recordings, pool
 from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.standing import stand_alike
 from mocapbench.baselines.kriging.channel_process import (
     choose_near,
     learn_channel_process,
@@ -26,6 +25,7 @@ from mocapbench.baselines.kriging.stacked import (
     stack_frames,
     weigh_channels,
 )
+from mocapbench.baselines.kriging.stances import find_stances
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.basics.mask_runs import hidden_together, runs
@@ -125,8 +125,8 @@ class ChannelKriging(Imputer, Inductive):
     def _fill_recording(self, recording: Recording) -> Prediction:
         pooled = pool(self.recordings_, [recording])
         own = [each.name for each in pooled].index(recording.name)
-        standing = stand_alike(pooled, own)
-        alike = [place.take_out(each) for place, each in zip(standing, pooled, strict=True)]
+        stances = find_stances(pooled, own)
+        alike = [stance.take_out(each) for stance, each in zip(stances, pooled, strict=True)]
         scaling = Standardisation.of(alike)
         stacked = stack_frames([scaling.apply(each) for each in alike])
         mean, variance = np.zeros_like(recording.values), np.ones_like(recording.values)
@@ -136,7 +136,7 @@ class ChannelKriging(Imputer, Inductive):
             duration = float(np.median([len(gap) + 1 for gap in runs(hidden)]))
             mean[place], variance[place] = _moments(*stacked, own, channels, duration)
         mean, variance = scaling.mean + scaling.scale * mean, scaling.scale**2 * variance
-        return standing[own].put_back(recording, mean, variance)
+        return stances[own].put_back(recording, mean, variance)
 
 
 def _moments(

@@ -10,7 +10,8 @@ Processes whose parameters best predict what is held out:
 
 * `held_out_stretches`: errors in frames that are held out, and the search for the parameters;
 * `stacked`: the frames of several recordings, and which channels say most of others;
-  `channel_process`: the process of channels that others show;
+  `channel_process`: the process of channels that others show; `stances`: where markers stand and
+  face, taken out before;
 * `marker_gap`: a gap of a marker, seen from a body that moves with others; `marker_process`: the
   process of where it is.
 """

@@ -10,7 +10,6 @@ around in it is seen to turn.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -21,13 +20,13 @@ from mocapbench.baselines.protocols import Prediction
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["Standing", "stand_alike"]
+__all__ = ["Stance", "find_stances"]
 
 _FLAT = 1e-6
 """Markers beside which no other lies farther, as a share, are on a line."""
 
 
-class Standing(NamedTuple):
+class Stance:
     """Where the markers of a recording stand and face.
 
     Parameters
@@ -40,9 +39,10 @@ class Standing(NamedTuple):
         Row vectors from the reference's direction times it are in that of the recording.
     """
 
-    places: Index
-    path: Array
-    rotation: Array
+    def __init__(self, places: Index, path: Array, rotation: Array) -> None:
+        self.places: Index = places
+        self.path: Array = path
+        self.rotation: Array = rotation
 
     def take_out(self, recording: Recording) -> Recording:
         """Return the recording as seen from its body."""
@@ -64,7 +64,7 @@ class Standing(NamedTuple):
         return Prediction.around(recording, mean, variance)
 
 
-def stand_alike(recordings: Sequence[Recording], own: int) -> list[Standing]:
+def find_stances(recordings: Sequence[Recording], own: int) -> list[Stance]:
     """Return where the markers of each recording stand and face.
 
     They face as the first of the others does on the whole.
@@ -80,10 +80,10 @@ def stand_alike(recordings: Sequence[Recording], own: int) -> list[Standing]:
     guides = _find_guides(recordings, recordings[own], markers)
     if len(guides) < FEWEST:
         none = markers[:0]
-        return [Standing(none, np.zeros((len(r.times), 3)), np.eye(3)) for r in recordings]
+        return [Stance(none, np.zeros((len(r.times), 3)), np.eye(3)) for r in recordings]
     shapes = [_follow_guides(recording, guides) for recording in recordings]
     reference = next((shape for k, (_, shape) in enumerate(shapes) if k != own), shapes[own][1])
-    return [Standing(markers, path, _rotate(reference, shape)) for path, shape in shapes]
+    return [Stance(markers, path, _rotate(reference, shape)) for path, shape in shapes]
 
 
 def _find_guides(recordings: Sequence[Recording], own: Recording, markers: Index) -> Index:

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from mocapbench.baselines.common.standing import stand_alike
+from mocapbench.baselines.kriging.stances import find_stances
 from mocapbench.datasets import Recording
 
 N_FRAMES, MARKERS = 12, "abcde"
@@ -43,7 +43,7 @@ def _hide(recording):
 def test_what_is_seen_from_the_body_does_not_depend_on_where_it_stands_and_faces(seed):
     other, walk = _walk(seed, "other"), _hide(_walk(seed + 1, "walk"))
     moved = _move(walk, seed)
-    (_, here), (_, there) = stand_alike([other, walk], 1), stand_alike([other, moved], 1)
+    (_, here), (_, there) = find_stances([other, walk], 1), find_stances([other, moved], 1)
     np.testing.assert_allclose(there.take_out(moved).values, here.take_out(walk).values, atol=1e-9)
 
 
@@ -51,9 +51,9 @@ def test_what_is_seen_from_the_body_does_not_depend_on_where_it_stands_and_faces
 def test_what_is_taken_out_is_put_back(seed):
     walk = _walk(seed + 1, "walk")
     given_, ones = _hide(walk), np.ones(walk.values.shape)
-    _, standing = stand_alike([_walk(seed, "other"), given_], 1)
-    seen = standing.take_out(walk).values
-    prediction = standing.put_back(given_, seen, ones)
+    _, stance = find_stances([_walk(seed, "other"), given_], 1)
+    seen = stance.take_out(walk).values
+    prediction = stance.put_back(given_, seen, ones)
     np.testing.assert_allclose(prediction.mean, walk.values, atol=1e-9)
     np.testing.assert_allclose(prediction.variance[4:8, :6], 1.0)  # alike in all directions
 
@@ -63,18 +63,18 @@ def test_a_variance_turns_with_what_it_is_of(seed):
     walk = _hide(_walk(seed + 1, "walk"))
     moved = _move(walk, seed)
     variance = np.random.default_rng(seed).random(walk.values.shape)
-    _, standing = stand_alike([_walk(seed, "other"), moved], 1)
-    got = standing.put_back(moved, moved.values.copy(), variance).variance
+    _, stance = find_stances([_walk(seed, "other"), moved], 1)
+    got = stance.put_back(moved, moved.values.copy(), variance).variance
     covariances = [np.diag(v) for v in variance[:, :15].reshape(-1, 3)]
-    rotated = [standing.rotation.T @ c @ standing.rotation for c in covariances]
+    rotated = [stance.rotation.T @ c @ stance.rotation for c in covariances]
     expected = np.array([np.diag(c) for c in rotated]).reshape(N_FRAMES, 15)
     np.testing.assert_allclose(got[4:8, :6], expected[4:8, :6])
 
 
 def test_other_channels_stay_as_they_are():
     walks = [_walk(0, "other"), _hide(_walk(1, "walk"))]
-    for standing, walk in zip(stand_alike(walks, 1), walks, strict=True):
-        np.testing.assert_array_equal(standing.take_out(walk).values[:, 15], walk.values[:, 15])
+    for stance, walk in zip(find_stances(walks, 1), walks, strict=True):
+        np.testing.assert_array_equal(stance.take_out(walk).values[:, 15], walk.values[:, 15])
 
 
 @pytest.mark.parametrize("n_hidden", [3, 4, 5])
@@ -82,20 +82,20 @@ def test_without_three_markers_that_are_always_visible_nothing_is_taken_out(n_hi
     hidden = np.zeros((N_FRAMES, 16), dtype=bool)
     hidden[5, : 3 * n_hidden] = True
     walk = _walk(1, "walk").hide(hidden)
-    assert all(not each.places.size for each in stand_alike([_walk(0, "other"), walk], 1))
-    (_, standing) = stand_alike([_walk(0, "other"), walk], 1)
-    assert standing.take_out(walk) is walk
+    assert all(not each.places.size for each in find_stances([_walk(0, "other"), walk], 1))
+    (_, stance) = find_stances([_walk(0, "other"), walk], 1)
+    assert stance.take_out(walk) is walk
 
 
 def test_markers_on_a_line_are_moved_and_not_turned():
     line = np.zeros((N_FRAMES, 16))
     line[:, :15:3] = np.arange(5)
     walks = [Recording(n, np.arange(N_FRAMES), line, CHANNELS, UNITS) for n in ("a", "b")]
-    for standing in stand_alike(walks, 0):
-        np.testing.assert_array_equal(standing.rotation, np.eye(3))
-        assert standing.places.size
+    for stance in find_stances(walks, 0):
+        np.testing.assert_array_equal(stance.rotation, np.eye(3))
+        assert stance.places.size
 
 
 def test_a_recording_alone_keeps_its_direction():
-    (standing,) = stand_alike([_walk(3, "walk")], 0)
-    np.testing.assert_allclose(standing.rotation, np.eye(3), atol=1e-12)
+    (stance,) = find_stances([_walk(3, "walk")], 0)
+    np.testing.assert_allclose(stance.rotation, np.eye(3), atol=1e-12)
