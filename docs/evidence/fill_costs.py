@@ -268,12 +268,11 @@ def _round(cost: dict[str, float]) -> dict[str, float]:
 
 def _measure_all_sizes(measured: pd.DataFrame) -> Array:
     """Return the sizes of each measured problem for its model."""
-    make, limits = cache(make_problem), {name: build_unfitted(name) for name in MODELS.names()}
+    make, models = cache(make_problem), {name: build_unfitted(name) for name in MODELS.names()}
+    limits = {name: getattr(model, "max_frames", None) for name, model in models.items()}
     return np.array(
         [
-            measure_sizes(
-                make(Grid(*(row[field] for field in Grid._fields))), limits[row["model"]].max_frames
-            )
+            measure_sizes(make(Grid(*(row[field] for field in Grid._fields))), limits[row["model"]])
             for _, row in measured.iterrows()
         ]
     )
