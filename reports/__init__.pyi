@@ -6,7 +6,13 @@ from .bundle.model_info import ModelInfo
 from .bundle.origin import Origin
 from .bundle.pictures import Axes, Curve, HeatMaps, Illustration, Motions, Picture, Space
 from .bundle.task_page import Figure, TaskPage
+from .export.selection import select_results
 from .export.typesetting import latex_text, markdown_text, paper_tables
+from .figures.plots.drawing import FIGURE_FORMATS, render_figure
+from .figures.plots.kinds import FIGURE_KINDS
+from .figures.plots.look import LOOKS
+from .figures.plots.run_figures import describe_figure, tabulate_figures
+from .figures.styles import DrawingStyle, model_styles
 from .filling.curves import FilledCurve
 from .filling.page import FilledPage, render_filled
 from .page.leaderboard import render_leaderboard
@@ -17,12 +23,16 @@ from .spreadsheet import csv_text
 from .tables.base import Table
 
 __all__ = [
+    "FIGURE_FORMATS",
+    "FIGURE_KINDS",
+    "LOOKS",
     "Axes",
     "Bundle",
     "CaseLayout",
     "Change",
     "ChangeVerdict",
     "Curve",
+    "DrawingStyle",
     "ErrorParts",
     "Figure",
     "FilledCurve",
@@ -41,11 +51,16 @@ __all__ = [
     "TaskLayout",
     "TaskPage",
     "csv_text",
+    "describe_figure",
     "latex_text",
     "markdown_text",
+    "model_styles",
     "paper_tables",
     "render",
     "render_changes",
+    "render_figure",
     "render_filled",
     "render_leaderboard",
+    "select_results",
+    "tabulate_figures",
 ]

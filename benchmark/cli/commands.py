@@ -32,6 +32,7 @@ COMMANDS = {
     "export": "Write the scores and jobs of a run, or tables for papers.",
     "submit": "Write the records of a run as an archive for a leaderboard.",
     "leaderboard": "Build a site of what several laboratories have sent.",
+    "figures": "Draw figures for a paper or slides, each with its data.",
     "list": "List tasks, models, metrics, libraries or formats of files.",
     "info": "Show versions, the machine, and how to cite.",
 }

@@ -79,6 +79,12 @@ class MetricInfo:
         return self._abbreviation or self.title.partition(" (")[0]
 
     @property
+    def quantity(self) -> str:
+        """The short name with the unit, but for a unit that is a phrase."""
+        wanted = self.unit and " " not in self.unit and self.unit not in self.short
+        return f"{self.short}, {self.unit}" if wanted else self.short
+
+    @property
     def acronym(self) -> str:
         """The capitals of the abbreviation, such as SMSE of “pooled SMSE”; empty without one."""
         return self._abbreviation.rpartition(" ")[2]

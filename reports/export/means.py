@@ -17,7 +17,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.bundle.layout import CaseLayout
 
-__all__ = ["REFERENCE", "tabulate_means"]
+__all__ = ["REFERENCE", "columns_of", "tabulate_means"]
 
 REFERENCE = "reference"
 """In place of a test: the label is a limit or a control, and not compared."""
@@ -53,16 +53,16 @@ def tabulate_means(results: TaskResults, metrics: Sequence[str]) -> pd.DataFrame
     rows = [
         row
         for metric in metrics
-        for name, cases in _columns(results, metric, alone=len(metrics) == 1)
+        for name, cases in columns_of(results, metric, alone=len(metrics) == 1)
         for row in _column_rows(results, metric, name, cases)
     ]
     return pd.DataFrame(rows, columns=list(_COLUMNS))
 
 
-def _columns(
+def columns_of(
     results: TaskResults, metric: str, *, alone: bool
 ) -> Iterator[tuple[str, Sequence[CaseLayout]]]:
-    """Yield the name and the cases of each column of a metric."""
+    """Yield the name and the cases of each column of a metric, which may be shown alone."""
     counting = results.representative_cases(metric) or results.cases
     if len(counting) > 1:
         yield f"mean of {format_count(len(counting), 'case')}", counting

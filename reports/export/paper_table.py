@@ -10,12 +10,13 @@ import pandas as pd
 from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Place
+from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.export.means import REFERENCE
 from mocapbench.reports.tables.base import ABSENT, Cell, Table
 from mocapbench.reports.text import number, slug
 
-__all__ = ["build_table"]
+__all__ = ["build_table", "describe_protocol"]
 
 _MARKS = {Place.INSEPARABLE.value: "†", Place.INCOMPLETE.value: "*"}
 _UNTESTED = "‡"
@@ -72,16 +73,10 @@ def _head(
     first = column.iloc[0]
     several = means["metric"].nunique() > 1
     return Cell(
-        _name_metric(metrics[first["metric"]]) if several else first["case"],
+        metrics[first["metric"]].quantity if several else first["case"],
         note=_count_units(column) if counted else "",
         mark=_UNTESTED if Place.UNTESTED.value in {*column["test"]} else "",
     )
-
-
-def _name_metric(metric: MetricInfo) -> str:
-    """Return a metric's short name with its unit, but of one that is a phrase."""
-    wanted = metric.unit and " " not in metric.unit and metric.unit not in metric.short
-    return f"{metric.short}, {metric.unit}" if wanted else metric.short
 
 
 def _count_units(column: pd.DataFrame) -> str:
@@ -106,13 +101,17 @@ def _column_cells(column: pd.DataFrame, places: int) -> dict[str, Cell]:
 
 def _caption(results: TaskResults, means: pd.DataFrame, profile: str) -> str:
     """Return the task and its protocol, and each metric with its unit and direction."""
-    page, budget = results.layout.page, results.layout.budget
-    protocol = [page.reference, f"profile {profile}" if profile else "", budget]
     names = dict.fromkeys(means["metric"])
     metrics = "; ".join(_describe_metric(results.metrics[name]) for name in names)
     over = {*means["case"]} if len(names) > 1 else set()
     cases = f" ({', '.join(sorted(over))})" if over else ""
-    return f"{page.title} ({', '.join(filter(None, protocol))}): {metrics}{cases}."
+    return f"{describe_protocol(results.layout, profile)}: {metrics}{cases}."
+
+
+def describe_protocol(layout: TaskLayout, profile: str) -> str:
+    """Return the title of a task, its place in a paper, and what the run reduced."""
+    protocol = [layout.page.reference, f"profile {profile}" if profile else "", layout.budget]
+    return f"{layout.page.title} ({', '.join(filter(None, protocol))})"
 
 
 def _describe_metric(metric: MetricInfo) -> str:

@@ -21,7 +21,7 @@ from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_value
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure, line_keys
 
-__all__ = ["curves_along"]
+__all__ = ["curves_along", "group_cases"]
 
 Curve = Mapping[float, FoldSample]
 """By place along the column, in ascending order."""
@@ -54,12 +54,8 @@ def curves_along(
     SvgFigure or None
         None where no panel has two numbers with scores.
     """
-    values, alike = fold_values(results, metric), defaultdict(list)
-    scored = {case for case, _ in values}
-    for case in results.cases:
-        if case.name in scored:
-            alike[_heading(case, column)].append(case)
-    groups = {heading: cases for heading, cases in alike.items() if len(cases) > 1}
+    values = fold_values(results, metric)
+    groups = group_cases(results, metric, column)
     if not groups:
         return None
     shown, dashed = _choose_curves(results, metric, {label for _, label in values}, styles)
@@ -72,6 +68,18 @@ def curves_along(
     legend = line_keys(shown)
     title = f"{results.metrics[metric].title} along {column}"
     return SvgFigure(title, panels(panel for panel, _ in drawn), legend, caption)
+
+
+def group_cases(
+    results: TaskResults, metric: str, column: str
+) -> Mapping[str, Sequence[CaseLayout]]:
+    """Return the cases with scores that are alike in all columns but one, two or more, by these."""
+    scored = {case for case, _, name in results.estimates if name == metric}
+    alike = defaultdict(list)
+    for case in results.cases:
+        if case.name in scored:
+            alike[_heading(case, column)].append(case)
+    return {heading: cases for heading, cases in alike.items() if len(cases) > 1}
 
 
 def _choose_curves(

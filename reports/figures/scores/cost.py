@@ -15,7 +15,7 @@ from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure, dot_keys
 
-__all__ = ["cost_against_error", "front"]
+__all__ = ["cost_against_error", "front", "median_seconds"]
 
 HEIGHT, FEWEST = 240.0, 3
 LETTER = 12.0
@@ -32,7 +32,11 @@ def cost_against_error(
     None with fewer than three models.
     """
     metric = results.layout.page.metrics[0]
-    info, means, seconds = results.metrics[metric], mean_values(results, metric), _seconds(results)
+    info, means, seconds = (
+        results.metrics[metric],
+        mean_values(results, metric),
+        median_seconds(results),
+    )
     labels = [label for label in means if label in seconds]
     if len(labels) < FEWEST:
         return None
@@ -59,7 +63,7 @@ def front(points: Sequence[tuple[float, float]]) -> list[int]:
     return best
 
 
-def _seconds(results: TaskResults) -> dict[str, float]:
+def median_seconds(results: TaskResults) -> dict[str, float]:
     """Return the median over the jobs that finished of the seconds to fit and predict."""
     done = results.records[results.records["status"] == "ok"]
     total = done[["fit_seconds", "predict_seconds"]].astype(float).sum(axis=1)

@@ -18,7 +18,7 @@ from mocapbench.reports.figures.scores.best import CHOICE, best_labels
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure, line_keys
 
-__all__ = ["gap_error"]
+__all__ = ["N_BEST", "errors_along_gaps", "gap_error"]
 
 HEIGHT, N_BEST = 220.0, 5
 
@@ -28,7 +28,7 @@ def gap_error(
 ) -> SvgFigure | None:
     """Return the mean error along gaps of the best models; None where no gap is long enough."""
     metric = parts.metrics.get(results.layout.name, "")
-    windows = _windows(results, parts, metric) if metric else {}
+    windows = errors_along_gaps(results, parts)
     labels = best_labels(results, metric, windows, N_BEST) if windows else []
     if not labels:
         return None
@@ -45,8 +45,11 @@ def gap_error(
     return SvgFigure("Error along the gap", panels([drawn]), legend, caption)
 
 
-def _windows(results: TaskResults, parts: ErrorParts, metric: str) -> dict[str, Array]:
-    """Return the errors (W, P) of each label over the windows of the representative cases."""
+def errors_along_gaps(results: TaskResults, parts: ErrorParts) -> dict[str, Array]:
+    """Return the errors (W, P) of each label at P places along W gaps of representative cases."""
+    metric = parts.metrics.get(results.layout.name, "")
+    if not metric:
+        return {}
     cases = {case.name for case in results.representative_cases(metric)}
     found: dict[str, list[Array]] = {}
     for (task, case, label), errors in parts.along_gap.items():

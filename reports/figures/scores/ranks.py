@@ -20,7 +20,7 @@ from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, ro
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 
-__all__ = ["rank_figure"]
+__all__ = ["rank_figure", "rank_labels"]
 
 BAR_GAP = 7.0
 """Between the bars of two groups, in pixels."""
@@ -39,20 +39,29 @@ def rank_figure(losses: pd.DataFrame, title: str, styles: Mapping[str, DrawingSt
     """
     whole = losses.dropna(axis=1)
     left_out = [str(label) for label in losses.columns.difference(whole.columns, sort=False)]
-    ranks, difference = mean_ranks(whole), nemenyi(*whole.shape)
-    p_value = friedman(whole)
-    means = pd.Series(ranks, whole.columns).sort_values(kind="stable")
-    groups = [
-        [str(whole.columns[entrant]) for entrant in group]
-        for group in group_ranks(ranks, difference, p_value)
-    ]
+    means, groups = rank_labels(whole)
     over = f"over {format_count(len(whole), str(losses.index.name))}"
     label = f"{title}: mean ranks of {format_count(len(means), 'entrant')} {over}"
     marks = [text(0.0, 13.0, f"ranks {over}", "title"), *_marks(means, groups, styles)]
     drawing = svg(WIDTH, TOP + ROW * len(means) + BOTTOM, label, marks)
-    caption = f"mean ranks {over}. {_caption(p_value, difference, groups)}"
+    test = friedman(whole), nemenyi(*whole.shape)
+    caption = f"mean ranks {over}. {_caption(*test, groups)}"
     lacking = f" Left out, without every score: {', '.join(left_out)}." if left_out else ""
     return SvgFigure(title, panels([drawing]), (), caption + lacking)
+
+
+def rank_labels(losses: pd.DataFrame) -> tuple[pd.Series[float], list[list[str]]]:
+    """Return the mean ranks of columns, the best first, and groups that are not separable.
+
+    Parameters
+    ----------
+    losses : DataFrame
+        A row for each unit and a column for each label, without NaN.
+    """
+    ranks = mean_ranks(losses)
+    means = pd.Series(ranks, losses.columns).sort_values(kind="stable")
+    groups = group_ranks(ranks, nemenyi(*losses.shape), friedman(losses))
+    return means, [[str(losses.columns[entrant]) for entrant in group] for group in groups]
 
 
 def _marks(

@@ -17,7 +17,7 @@ from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure, line_keys
 
-__all__ = ["reliability"]
+__all__ = ["coverage_curves", "reliability"]
 
 FEWEST = 2
 _DIAGONAL = DrawingStyle("hr", 1)
@@ -27,16 +27,20 @@ Curve = dict[float, float]
 
 def reliability(results: TaskResults, styles: Mapping[str, DrawingStyle]) -> SvgFigure | None:
     """Return nominal against empirical coverage of each model; None with fewer than two levels."""
-    levels = _levels(results)
-    curves: dict[str, Curve] = {}
-    for nominal, metric in sorted(levels.items()):
-        for label, share in mean_values(results, metric).items():
-            curves.setdefault(label, {})[nominal] = share
-    curves = {label: curve for label, curve in curves.items() if len(curve) >= FEWEST}
+    curves = coverage_curves(results)
     if not curves:
         return None
     legend = line_keys({label: styles[label] for label in curves})
     return SvgFigure("Reliability", panels([_panel(curves, styles)]), legend, "")
+
+
+def coverage_curves(results: TaskResults) -> dict[str, Curve]:
+    """Return the empirical coverage by nominal level of each label that has two or more levels."""
+    curves: dict[str, Curve] = {}
+    for nominal, metric in sorted(_levels(results).items()):
+        for label, share in mean_values(results, metric).items():
+            curves.setdefault(label, {})[nominal] = share
+    return {label: curve for label, curve in curves.items() if len(curve) >= FEWEST}
 
 
 def _levels(results: TaskResults) -> dict[float, str]:

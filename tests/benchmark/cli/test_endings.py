@@ -40,6 +40,7 @@ GIVEN = {
     "export": ("export", "--out", "run", "--to", "{new}"),
     "submit": ("submit", "run", "--by", "us", "--to", "{new}.zip"),
     "leaderboard": ("leaderboard", "submission.zip", "--out", "{new}"),
+    "figures": ("figures", "run", "--kinds", "error-bars", "--out", "{new}"),
     "list": ("list", "models"),
     "inspect": ("inspect", "walk.csv"),
     "info": ("info",),

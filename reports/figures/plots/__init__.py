@@ -1,0 +1,1 @@
+"""Figures for papers: tidy tables drawn by seaborn and matplotlib, one module a kind."""

@@ -1,0 +1,49 @@
+"""Which metrics a figure shows, and which models a figure of curves has room for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.export.selection import order_labels
+from mocapbench.reports.figures.scores.best import best_labels
+
+__all__ = ["CHOICE", "choose_labels", "choose_metrics"]
+
+MOST_CURVES = 8
+"""More cannot be told apart."""
+_BEST = 4
+CHOICE = (
+    f"Of more than {MOST_CURVES} models the best are drawn, with those of the papers and the best "
+    "interpolation."
+)
+"""What `choose_labels` chooses, for captions."""
+
+
+def choose_labels(results: TaskResults, metric: str, among: Iterable[str]) -> list[str]:
+    """Return the labels to draw, best first: all if these are few, else those of most interest.
+
+    These are the best, the models of the papers, the best interpolation and the best of yours.
+    """
+    known = {*among}
+    ordered = [name for name in order_labels(results, metric).layout.labels if name in known]
+    if len(ordered) <= MOST_CURVES:
+        return ordered
+    papers = [name for name in ordered if name in results.layout.page.published_models]
+    chosen = {*best_labels(results, metric, known, _BEST), *papers[:_BEST]}
+    return [name for name in ordered if name in chosen]
+
+
+def choose_metrics(results: TaskResults, named: Sequence[str]) -> list[str]:
+    """Return the metrics that are named and have scores; by default the first of the task's page.
+
+    Parameters
+    ----------
+    results : TaskResults
+    named : sequence of str
+        Empty for the default.
+    """
+    scored = {*results.scores["metric"]}
+    if named:
+        return [metric for metric in named if metric in scored]
+    return [metric for metric in results.layout.page.metrics if metric in scored][:1]

@@ -1,0 +1,91 @@
+"""From a tidy table to a figure as wide as asked, and to the bytes of a file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from io import BytesIO
+from typing import Any
+
+import pandas as pd
+from matplotlib import style
+from matplotlib.figure import Figure
+
+from mocapbench.reports.figures.plots.base import Plot
+from mocapbench.reports.figures.plots.kinds import FIGURE_KINDS
+from mocapbench.reports.figures.plots.look import EM, Styles, fit_legend, settings_of, text_size
+
+__all__ = ["FIGURE_FORMATS", "draw_figure", "render_figure"]
+
+FIGURE_FORMATS = ("pdf", "svg", "png")
+_WITHOUT_DATES: dict[str, dict[str, Any]] = {
+    "pdf": {"CreationDate": None},
+    "svg": {"Date": None},
+    "png": {},
+}
+"""What would differ between two files of one figure."""
+
+
+def draw_figure(plot: Plot, table: pd.DataFrame, styles: Styles, width: float) -> Figure:
+    """Return a figure of a width in inches, a panel below the other or side by side.
+
+    Parameters
+    ----------
+    plot : Plot
+    table : DataFrame
+        As the plot tabulates it.
+    styles : mapping of str to DrawingStyle
+        Of all labels, so that a model has one colour in all figures and on the page.
+    width : float
+    """
+    every, em = plot.add_styles(table, styles), EM * text_size()
+    panels = [panel for _, panel in table.groupby("panel", sort=False)]
+    n_columns = min(len(panels), max(1, int(width / em // plot.narrowest)))
+    heights = _row_heights(plot, panels, width / em, n_columns)
+    legend = fit_legend(plot.keys(table), width / em)[1]
+    figure = Figure((width, em * (sum(heights) + legend)), layout="constrained")
+    grid = figure.add_gridspec(len(heights), n_columns, height_ratios=heights)
+    for number, panel in enumerate(panels):
+        plot.draw(figure.add_subplot(grid[divmod(number, n_columns)]), panel, every)
+    plot.add_key(figure, table, every)
+    return figure
+
+
+def render_figure(
+    kind: str,
+    table: pd.DataFrame,
+    styles: Styles,
+    size: tuple[float, float],
+    formats: Sequence[str],
+) -> dict[str, bytes]:
+    """Return the files of a figure by format: the same bytes for the same table.
+
+    Parameters
+    ----------
+    kind : str
+        Of `FIGURE_KINDS`.
+    table, styles
+        See `draw_figure`.
+    size : tuple of float
+        Of the text in points, and the width of the figure in inches.
+    formats : sequence of str
+        Of `FIGURE_FORMATS`.
+    """
+    points, width = size
+    with style.context(["default", dict(settings_of(points))]):  # whatever the user's settings
+        figure = draw_figure(FIGURE_KINDS[kind], table, styles, width)
+        return {name: _save(figure, name) for name in formats}
+
+
+def _row_heights(
+    plot: Plot, panels: Sequence[pd.DataFrame], width: float, n_columns: int
+) -> list[float]:
+    """Return the height of each row of panels, in em."""
+    heights = [plot.height(panel, width / n_columns) for panel in panels]
+    starts = range(0, len(panels), n_columns)
+    return [max(heights[start : start + n_columns]) for start in starts]
+
+
+def _save(figure: Figure, name: str) -> bytes:
+    file = BytesIO()
+    figure.savefig(file, format=name, metadata=_WITHOUT_DATES[name])
+    return file.getvalue()
