@@ -8,9 +8,12 @@ from .bundle.pictures import Axes, Curve, HeatMaps, Illustration, Motions, Pictu
 from .bundle.task_page import Figure, TaskPage
 from .export.selection import select_results
 from .export.typesetting import latex_text, markdown_text, paper_tables
+from .figures.plots.along_column import AlongColumn
+from .figures.plots.base import Plot
 from .figures.plots.drawing import FIGURE_FORMATS, render_figure
 from .figures.plots.kinds import FIGURE_KINDS
 from .figures.plots.look import LOOKS
+from .figures.plots.on_axes import draw_on_axes
 from .figures.plots.run_figures import describe_figure, tabulate_figures
 from .figures.styles import DrawingStyle, model_styles
 from .filling.curves import FilledCurve
@@ -26,6 +29,7 @@ __all__ = [
     "FIGURE_FORMATS",
     "FIGURE_KINDS",
     "LOOKS",
+    "AlongColumn",
     "Axes",
     "Bundle",
     "CaseLayout",
@@ -44,6 +48,7 @@ __all__ = [
     "Motions",
     "Origin",
     "Picture",
+    "Plot",
     "RunChanges",
     "ScoreChange",
     "Space",
@@ -52,6 +57,7 @@ __all__ = [
     "TaskPage",
     "csv_text",
     "describe_figure",
+    "draw_on_axes",
     "latex_text",
     "markdown_text",
     "model_styles",

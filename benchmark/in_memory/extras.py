@@ -10,8 +10,8 @@ __all__ = ["require_extra"]
 EXTRA = "notebook"
 
 
-def require_extra(name: str, use: str) -> ModuleType:
-    """Return a module of the extra ``notebook``.
+def require_extra(name: str, use: str, extra: str = EXTRA) -> ModuleType:
+    """Return a module that an extra brings.
 
     Parameters
     ----------
@@ -19,6 +19,7 @@ def require_extra(name: str, use: str) -> ModuleType:
         Such as ``"matplotlib.pyplot"``.
     use : str
         What needs it.
+    extra : str, default="notebook"
 
     Raises
     ------
@@ -30,5 +31,5 @@ def require_extra(name: str, use: str) -> ModuleType:
     except ImportError as error:
         package = name.partition(".")[0]
         raise ImportError(
-            f"{use} needs {package}, which cannot be imported: pip install 'mocapbench[{EXTRA}]'"
+            f"{use} needs {package}, which cannot be imported: pip install 'mocapbench[{extra}]'"
         ) from error

@@ -11,12 +11,11 @@ import pandas as pd
 
 from mocapbench.benchmark.comparison.units import with_advantages
 from mocapbench.benchmark.results.bundle import metric_info
+from mocapbench.benchmark.results.evaluated_gaps import UNITS, require_columns
 from mocapbench.metrics.statistics import ALPHA, ROPE, Contrast, contrast, holm, pair
 
 __all__ = ["compare"]
 
-_UNITS = {"gap": ["recording", "position"], "recording": ["recording"]}
-"""The columns that tell apart what counts as one."""
 _PROBLEM = ["recording", "position", "gap"]
 _COLUMNS = (*_PROBLEM, "model", "metric", "value")
 
@@ -74,11 +73,9 @@ def compare(scores: pd.DataFrame, *, by: str = "gap", rope: float = ROPE) -> pd.
 
 
 def _check_scores(scores: pd.DataFrame, by: str) -> None:
-    lacking = [name for name in _COLUMNS if name not in scores]
-    if lacking:
-        raise ValueError(f"expected the columns of evaluate, got none called {', '.join(lacking)}")
-    if by not in _UNITS:
-        raise ValueError(f"expected by= as one of {', '.join(_UNITS)}, got {by!r}")
+    require_columns(scores, _COLUMNS)
+    if by not in UNITS:
+        raise ValueError(f"expected by= as one of {', '.join(UNITS)}, got {by!r}")
     if scores["model"].nunique() < 2:
         raise ValueError(f"expected two models or more, got {scores['model'].nunique()}")
     repeated = scores.duplicated([*_COLUMNS[:-1]])
@@ -101,7 +98,7 @@ def _contrast_pairs(
     for first, second in combinations(order, 2):
         values = pair(by_model[first], by_model[second])
         pairs = with_advantages(values.rename_axis(["case", *_PROBLEM[1:]]), about)
-        units = pairs.rename_axis(_PROBLEM).groupby(level=_UNITS[by])
+        units = pairs.rename_axis(_PROBLEM).groupby(level=[*UNITS[by]])
         if len(pairs):
             found = contrast(units.mean().assign(share=units.size() / len(pairs)), rope)
             yield {"metric": metric, "first": first, "second": second, **_list_values(found)}

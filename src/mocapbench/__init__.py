@@ -1,9 +1,10 @@
 """Reproducible benchmarks of models of human motion.
 
 To fill and compare recordings in memory there are `read`, `fill`, `evaluate`, `compare` and
-`GapFiller`, which are loaded at first use. The parts are `mocapbench.datasets`,
-`mocapbench.metrics`, `mocapbench.baselines`, `mocapbench.reports` and `mocapbench.benchmark`, each
-a folder of its own in the source tree. They build on `mocapbench.basics`.
+`GapFiller`, and `mocapbench.figures` draws scores; all are loaded at first use. The parts are
+`mocapbench.datasets`, `mocapbench.metrics`, `mocapbench.baselines`, `mocapbench.reports` and
+`mocapbench.benchmark`, each a folder of its own in the source tree. They build on
+`mocapbench.basics`.
 """
 
 import lazy_loader

@@ -1,4 +1,4 @@
-from . import baselines, basics, benchmark, datasets, metrics, reports
+from . import baselines, basics, benchmark, datasets, figures, metrics, reports
 from .benchmark.in_memory.evaluation import evaluate
 from .benchmark.in_memory.filled import Filled
 from .benchmark.in_memory.gap_filler import GapFiller
@@ -21,6 +21,7 @@ __all__ = [
     "compare",
     "datasets",
     "evaluate",
+    "figures",
     "fill",
     "metrics",
     "read",

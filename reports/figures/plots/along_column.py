@@ -17,7 +17,7 @@ from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels, choose_metrics
 from mocapbench.reports.figures.plots.look import Styles, fit_axis, scales_of
-from mocapbench.reports.figures.scores.along import group_cases
+from mocapbench.reports.figures.scores.along import N_BANDS, group_cases
 
 __all__ = ["AlongColumn"]
 
@@ -59,7 +59,13 @@ class AlongColumn(Plot):
         """Draw the curves, and intervals as shaded areas."""
         plot = (
             objects.Plot(panel, x="x", y="mean", color="label", marker="label")
-            .add(objects.Band(alpha=0.12, edgewidth=0.0), ymin="low", ymax="high", legend=False)
+            .add(
+                objects.Band(alpha=0.12, edgewidth=0.0),
+                data=panel[panel["label"].isin(self.keys(panel)[:N_BANDS])],
+                ymin="low",
+                ymax="high",
+                legend=False,
+            )
             .add(objects.Line(pointsize=3.5), linestyle="label", legend=False)
             .scale(**scales_of(panel["label"], styles))
         )
@@ -78,7 +84,7 @@ class AlongColumn(Plot):
     def describe(self, table: pd.DataFrame) -> str:
         """Return what is drawn of which models."""
         shaded = table["low"].notna().any()
-        areas = ", shaded areas their 95 % intervals by Student’s t" if shaded else ""
+        areas = f", shaded areas 95 % intervals of the first {N_BANDS} models" if shaded else ""
         folds = format_count(int(table["n"].max()), "fold")
         return f"Points are means over {folds}{areas}. {CHOICE}"
 

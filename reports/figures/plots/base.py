@@ -17,7 +17,7 @@ from mocapbench.reports.figures.plots.look import Styles, add_legend
 __all__ = ["NothingToDrawError", "Plot"]
 
 
-class NothingToDrawError(Exception):
+class NothingToDrawError(ValueError):
     """A run lacks what a kind of figure shows; the message says what that is."""
 
 
@@ -73,6 +73,11 @@ class Plot(ABC):
     def add_key(self, figure: Figure, table: pd.DataFrame, styles: Styles) -> None:
         """Add what explains colours, by default a legend of the labels that `keys` names."""
         add_legend(figure, {label: styles[label] for label in self.keys(table)})
+
+    def foot(self, table: pd.DataFrame) -> float:
+        """Return the height of what stands below the last panel, in em; by default nothing."""
+        del table
+        return 0.0
 
     def keys(self, table: pd.DataFrame) -> Sequence[str]:
         """Return the labels that the legend names; by default none."""

@@ -64,16 +64,19 @@ class ByCase(Plot):
         )
         plot.theme({}).on(axes).plot()
         fit_axis(axes, "y", panel["mean"], [*panel["low"], *panel["high"]])
-        names = [*dict.fromkeys(panel["case"])]
-        turned = sum(map(len, names)) > MOST_LETTERS
-        axes.tick_params("x", rotation=90 if turned else 0)
+        axes.tick_params("x", rotation=90 if _stand_upright(panel) else 0)
+        place = axes.get_subplotspec()
+        axes.tick_params("x", labelbottom=place is None or place.is_last_row())
         axes.set(xlabel="", ylabel="", title=panel["panel"].iloc[0])
 
     def height(self, panel: pd.DataFrame, width: float) -> float:
-        """Return a low panel, and room below it for names that stand upright."""
-        longest = max(map(len, panel["case"]))
-        names = 0.55 * longest if len({*panel["case"]}) * longest > MOST_LETTERS else 0.0
-        return 0.42 * width + names
+        """Return the height of a low panel."""
+        del panel
+        return 0.4 * width
+
+    def foot(self, table: pd.DataFrame) -> float:
+        """Return room for names of cases that stand upright."""
+        return 0.55 * max(map(len, table["case"])) if _stand_upright(table) else 0.0
 
     def describe(self, table: pd.DataFrame) -> str:
         """Return what markers and bars are."""
@@ -96,6 +99,11 @@ class ByCase(Plot):
     def keys(self, table: pd.DataFrame) -> Sequence[str]:
         """Return the models, ours and those of the papers."""
         return [*dict.fromkeys(table["label"])]
+
+
+def _stand_upright(table: pd.DataFrame) -> bool:
+    """Return whether the names of cases are too long to lie side by side."""
+    return sum(map(len, {*table["case"]})) > MOST_LETTERS
 
 
 def _list_rows(

@@ -25,29 +25,30 @@ _WITHOUT_DATES: dict[str, dict[str, Any]] = {
 """What would differ between two files of one figure."""
 
 
-def draw_figure(plot: Plot, table: pd.DataFrame, styles: Styles, width: float) -> Figure:
-    """Return a figure of a width in inches, a panel below the other or side by side.
+def draw_figure(figure: Figure, plot: Plot, table: pd.DataFrame, styles: Styles) -> None:
+    """Draw a table into a figure as wide as it is, a panel below the other or side by side.
 
     Parameters
     ----------
+    figure : Figure
+        Empty; it becomes as high as it must be.
     plot : Plot
     table : DataFrame
         As the plot tabulates it.
     styles : mapping of str to DrawingStyle
         Of all labels, so that a model has one colour in all figures and on the page.
-    width : float
     """
     every, em = plot.add_styles(table, styles), EM * text_size()
+    width = figure.get_figwidth() / em
     panels = [panel for _, panel in table.groupby("panel", sort=False)]
-    n_columns = min(len(panels), max(1, int(width / em // plot.narrowest)))
-    heights = _row_heights(plot, panels, width / em, n_columns)
-    legend = fit_legend(plot.keys(table), width / em)[1]
-    figure = Figure((width, em * (sum(heights) + legend)), layout="constrained")
+    n_columns = min(len(panels), max(1, int(width // plot.narrowest)))
+    heights = _row_heights(plot, panels, width, n_columns)
+    below = fit_legend(plot.keys(table), width)[1] + plot.foot(table)
+    figure.set_figheight(em * (sum(heights) + below))
     grid = figure.add_gridspec(len(heights), n_columns, height_ratios=heights)
     for number, panel in enumerate(panels):
         plot.draw(figure.add_subplot(grid[divmod(number, n_columns)]), panel, every)
     plot.add_key(figure, table, every)
-    return figure
 
 
 def render_figure(
@@ -72,7 +73,8 @@ def render_figure(
     """
     points, width = size
     with style.context(["default", dict(settings_of(points))]):  # whatever the user's settings
-        figure = draw_figure(FIGURE_KINDS[kind], table, styles, width)
+        figure = Figure((width, width), layout="constrained")
+        draw_figure(figure, FIGURE_KINDS[kind], table, styles)
         return {name: _save(figure, name) for name in formats}
 
 

@@ -50,16 +50,16 @@ class ErrorBars(Plot):
         looks = scales_of(panel["label"], styles)
         plot = (
             objects.Plot(panel, y="label", color="label", marker="label")
-            .add(objects.Dots(pointsize=2.5, alpha=0.6, stroke=0.5), x="value", legend=False)
             .add(
-                objects.Range(linewidth=1.2),
+                objects.Range(linewidth=1.5, alpha=0.5),
                 data=means,
                 orient="y",
                 xmin="low",
                 xmax="high",
                 legend=False,
             )
-            .add(objects.Dot(pointsize=4.5), data=means, x="mean", legend=False)
+            .add(objects.Dots(pointsize=3.0, stroke=0.6), x="value", legend=False)
+            .add(objects.Dot(pointsize=5.0), data=means, x="mean", legend=False)
             .scale(color=looks["color"], marker=looks["marker"])
         )
         plot.theme({}).on(axes).plot()

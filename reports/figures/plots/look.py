@@ -27,6 +27,7 @@ __all__ = [
     "dashes_of",
     "fit_axis",
     "fit_legend",
+    "legend_handles",
     "level_colours",
     "scales_of",
     "settings_of",
@@ -133,7 +134,15 @@ def text_size() -> float:
 
 def add_legend(figure: Figure, styles: Styles) -> None:
     """Add a legend below all axes, with as many columns as there is room for."""
-    handles = [
+    if styles:
+        columns, _ = fit_legend([*styles], figure.get_figwidth() / (EM * text_size()))
+        handles = legend_handles(styles)
+        figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=2.6)
+
+
+def legend_handles(styles: Styles) -> list[Line2D]:
+    """Return a line with a marker for each label."""
+    return [
         Line2D(
             [],
             [],
@@ -145,9 +154,6 @@ def add_legend(figure: Figure, styles: Styles) -> None:
         )
         for label, style in styles.items()
     ]
-    if handles:
-        columns, _ = fit_legend([*styles], figure.get_figwidth() / (EM * text_size()))
-        figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=2.6)
 
 
 def fit_legend(labels: Sequence[str], width: float) -> tuple[int, float]:

@@ -21,7 +21,7 @@ from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_value
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure, line_keys
 
-__all__ = ["curves_along", "group_cases"]
+__all__ = ["N_BANDS", "curves_along", "group_cases"]
 
 Curve = Mapping[float, FoldSample]
 """By place along the column, in ascending order."""
