@@ -16,7 +16,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.pictures import HeatMaps
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.look import Styles, level_colours
+from mocapbench.reports.figures.plots.look import Styles, level_colours, wrap_title
 from mocapbench.reports.text import slug
 
 __all__ = ["Covariances"]
@@ -61,7 +61,7 @@ class Covariances(Plot):
             rasterized=True,
         )
         _name_blocks(axes, panel)
-        axes.set_title(panel["panel"].iloc[0])
+        axes.set_title(wrap_title(panel["panel"].iloc[0]))
 
     def add_key(self, figure: Figure, table: pd.DataFrame, styles: Styles) -> None:
         """Add the scale of the colours."""

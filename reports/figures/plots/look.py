@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from math import ceil
+from textwrap import fill
 from typing import Any
 
 from matplotlib import rcParams
@@ -32,6 +33,7 @@ __all__ = [
     "scales_of",
     "settings_of",
     "text_size",
+    "wrap_title",
 ]
 
 Styles = Mapping[str, DrawingStyle]
@@ -44,6 +46,9 @@ MARKERS = ("o", "s", "^", "D", "v", "P")
 """In the order of `mocapbench.reports.figures.marks.SHAPES`."""
 _DASHED_WIDTH = 1.4
 """Of the page's lines, of which matplotlib takes dashes as multiples."""
+
+_TITLE = 36
+"""Letters in a line."""
 
 _FIXED = {
     "axes.grid": False,
@@ -125,6 +130,11 @@ def fit_axis(axes: Axes, name: str, values: Iterable[float], ends: Iterable[floa
     else:
         scale = fit_linear_scale([*known, *ends], 0.0, 1.0)
     axes.set(**{f"{name}lim": (scale.low, scale.high)})
+
+
+def wrap_title(text: str) -> str:
+    """Return the title of a panel in lines that the narrowest column of a paper has room for."""
+    return fill(text, _TITLE)
 
 
 def text_size() -> float:
