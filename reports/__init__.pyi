@@ -24,6 +24,7 @@ from .run_comparison.render import render_changes
 from .run_comparison.values import Change, ChangeVerdict, RunChanges, ScoreChange
 from .spreadsheet import csv_text
 from .tables.base import Table
+from .workbook import xlsx_bytes
 
 __all__ = [
     "FIGURE_FORMATS",
@@ -69,4 +70,5 @@ __all__ = [
     "render_leaderboard",
     "select_results",
     "tabulate_figures",
+    "xlsx_bytes",
 ]

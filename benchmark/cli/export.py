@@ -10,7 +10,7 @@ import typer
 
 from mocapbench import benchmark as bench
 from mocapbench import reports
-from mocapbench.basics.whole_files import atomic_write, write_text, write_together
+from mocapbench.basics.whole_files import atomic_write, write_bytes, write_text, write_together
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
@@ -42,8 +42,11 @@ PAPER_FILES = {
     "markdown": "tables.md",
     "csv": "tables.csv",
     "parquet": "tables.parquet",
+    "xlsx": "tables.xlsx",
 }
 """The formats of tables for papers, and their files."""
+NEEDED = {"parquet": "pyarrow", "xlsx": "openpyxl"}
+"""The packages that formats need, which extras of their names bring."""
 PARQUET_ADVICE = "which need pyarrow: `pip install 'mocapbench[parquet]'`"
 
 
@@ -119,8 +122,9 @@ def _paper_paths(folder: Path, formats: Sequence[str]) -> dict[str, Path]:
     for name in formats:
         if name not in PAPER_FILES:
             raise UnknownNameError("format", name, [*PAPER_FILES])
-    if "parquet" in formats and find_spec("pyarrow") is None:
-        raise UsageError(f"--format parquet writes Parquet files, {PARQUET_ADVICE}")
+        if name in NEEDED and find_spec(NEEDED[name]) is None:
+            advice = f"pip install 'mocapbench[{name}]'"
+            raise UsageError(f"--format {name} needs {NEEDED[name]}: `{advice}`")
     paths = {name: folder / PAPER_FILES[name] for name in formats}
     for path in filter(Path.exists, paths.values()):
         raise UsageError(
@@ -179,6 +183,8 @@ def _write_means(
                     write_text(drafts / path.name, reports.markdown_text(tables))
                 case "csv":
                     _write_csv(means, drafts / path.name)
+                case "xlsx":
+                    write_bytes(drafts / path.name, reports.xlsx_bytes(means, "means"))
                 case _:
                     _write_parquet(means, drafts / path.name)
 

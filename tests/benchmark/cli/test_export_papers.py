@@ -25,12 +25,15 @@ def run(tmp_path, write_run):
 
 def test_all_formats_have_the_same_numbers(cli, run, tmp_path):
     to = tmp_path / "paper"
-    assert cli("export", "--out", run, "--to", to, "--format", "latex,markdown,csv,parquet") == 0
+    assert (
+        cli("export", "--out", run, "--to", to, "--format", "latex,markdown,csv,parquet,xlsx") == 0
+    )
     assert {path.name for path in to.iterdir()} == {
-        f"tables.{end}" for end in ("tex", "md", "csv", "parquet")
+        f"tables.{end}" for end in ("tex", "md", "csv", "parquet", "xlsx")
     }
     means = pd.read_parquet(to / "tables.parquet")
     pd.testing.assert_frame_equal(means, pd.read_csv(to / "tables.csv"), check_dtype=False)
+    pd.testing.assert_frame_equal(means, pd.read_excel(to / "tables.xlsx"), check_dtype=False)
     shown = (to / "tables.md").read_text(encoding="utf-8")
     latex = (to / "tables.tex").read_text(encoding="utf-8")
     assert len(means) == 6
@@ -97,8 +100,9 @@ def test_a_model_without_a_score_is_named_and_without_any_there_is_no_table(
     assert "without a score there, so not shown: mohgp-3" in cli.printed
 
 
-def test_parquet_without_pyarrow_says_how_to_get_it(cli, run, tmp_path, monkeypatch):
+@pytest.mark.parametrize("name", ["parquet", "xlsx"])
+def test_a_format_without_its_package_says_how_to_get_it(cli, run, tmp_path, monkeypatch, name):
     module = importlib.import_module("mocapbench.benchmark.cli.export")
     monkeypatch.setattr(module, "find_spec", {}.get)
-    assert cli("export", "--out", run, "--to", tmp_path, "--format", "parquet") == 2
-    assert "pip install 'mocapbench[parquet]'" in cli.printed
+    assert cli("export", "--out", run, "--to", tmp_path, "--format", name) == 2
+    assert f"pip install 'mocapbench[{name}]'" in cli.printed
