@@ -67,20 +67,15 @@ def figures(
     By default there are all kinds that the run has data for, as PDF of 8.4 cm. Beside each stand
     its numbers (.csv), and its caption with the command that draws it again (.txt).
     """
-    if find_spec("seaborn") is None:
-        raise UsageError(f"figures are drawn by seaborn, which is not installed: {ADVICE}")
     load_plugins(plugin)
     named = {"kinds": split(kinds), "tasks": split(tasks), "models": split(models)}
     named |= {"metrics": split(metrics), "format": split(formats) or ("pdf",)}
-    _require_known("kind of figure", named["kinds"], [*reports.FIGURE_KINDS])
-    _require_known("format", named["format"], reports.FIGURE_FORMATS)
-    size = _read_size(style, width)
-    store, console, folder = bench.RunDirectory(run), LiteralConsole(), out or run / "figures"
+    _require_drawable(named, style)
+    size, folder = _read_size(style, width), out or run / "figures"
+    store, console = bench.RunDirectory(run), LiteralConsole()
     whole, styles = _bundle_run(store, named, data_dir)
-    tables, lacking = reports.tabulate_figures(whole, *_kinds_and_metrics(named))
-    if not tables:
-        _show_lacking(lacking, console)
-        raise UsageError("the run has no data for any figure of what is chosen")
+    kinds_shown = named["kinds"] or [*reports.FIGURE_KINDS]
+    tables, lacking = reports.tabulate_figures(whole, kinds_shown, named["metrics"])
     given = {"width": (width,), "style": (style,), "out": (str(out or ""),)}
     given |= {"plugin": tuple(map(str, plugin or ()))}
     contents: dict[str, bytes] = {}
@@ -88,13 +83,24 @@ def figures(
         command = _command_of(run, {**named, **given, "kinds": (kind,), "tasks": (task,)})
         about = f"{reports.describe_figure(whole, task, kind, table)}\n\n{command}\n"
         drawn = reports.render_figure(kind, table, styles, size, named["format"])
+        texts = {"csv": reports.csv_text(table), "txt": about}
+        drawn |= {end: encode_text(text) for end, text in texts.items()}
         contents |= {f"{name}.{end}": file for end, file in drawn.items()}
-        contents |= {f"{name}.csv": encode_text(reports.csv_text(table))}
-        contents |= {f"{name}.txt": encode_text(about)}
-    _write(folder, contents)
-    console.print(f"{format_count(len(tables), 'figure')}: {folder}", soft_wrap=True)
     _show_lacking(lacking, console)
     show_left_out(store.damaged, console)
+    if not contents:
+        raise UsageError("the run has no data for any figure of what is chosen")
+    _write(folder, contents)
+    console.print(f"{format_count(len(tables), 'figure')}: {folder}", soft_wrap=True)
+
+
+def _require_drawable(named: Mapping[str, Sequence[str]], style: str) -> None:
+    """Refuse kinds, formats and styles that there are not, and a machine that cannot draw."""
+    if find_spec("seaborn") is None:
+        raise UsageError(f"figures are drawn by seaborn, which is not installed: {ADVICE}")
+    _require_known("kind of figure", named["kinds"], [*reports.FIGURE_KINDS])
+    _require_known("format", named["format"], reports.FIGURE_FORMATS)
+    _require_known("style", [style], [*reports.LOOKS])
 
 
 def _bundle_run(
@@ -118,13 +124,8 @@ def _bundle_run(
     return chosen, reports.model_styles(whole.layouts)
 
 
-def _kinds_and_metrics(named: Mapping[str, Sequence[str]]) -> tuple[Sequence[str], Sequence[str]]:
-    return named["kinds"] or [*reports.FIGURE_KINDS], named["metrics"]
-
-
 def _read_size(style: str, width: str) -> tuple[float, float]:
     """Return the size of text in points, and the width of figures in inches."""
-    _require_known("style", [style], [*reports.LOOKS])
     points, centimetres = reports.LOOKS[style]
     found = re.fullmatch(r"(\d+(?:\.\d+)?) ?(cm|mm|in|pt)", width or f"{centimetres}cm")
     inches = float(found[1]) * _INCHES[found[2]] if found else 0.0
