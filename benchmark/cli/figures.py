@@ -26,6 +26,7 @@ from mocapbench.benchmark.cli.options import (
     load_records,
     load_tasks,
     open_archive,
+    require_names,
     show_left_out,
     split,
 )
@@ -47,7 +48,14 @@ _NARROWEST, _WIDEST = 1.0, 60.0
 @app.command()
 def figures(
     run: Annotated[Path, typer.Argument(help="The run directory.")] = DEFAULT_OUT,
-    kinds: Names = None,
+    kinds: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Of error-bars, by-case, along-gap, gap-length, recordings, calibration, ranks, "
+            "covariances, stick-figures and cost.",
+            callback=require_names,
+        ),
+    ] = None,
     tasks: Names = None,
     models: Names = None,
     metrics: Names = None,
@@ -64,8 +72,8 @@ def figures(
 ) -> None:
     """Draw figures for a paper or slides, each with its data.
 
-    By default there are all kinds that the run has data for, as PDF of 8.4 cm. Beside each stand
-    its numbers (.csv), and its caption with the command that draws it again (.txt).
+    By default every kind is drawn that the run has data for, as PDF of 8.4 cm. Beside a figure
+    are its numbers (.csv), and its caption with the command that draws it (.txt).
     """
     load_plugins(plugin)
     named = {"kinds": split(kinds), "tasks": split(tasks), "models": split(models)}
@@ -76,8 +84,12 @@ def figures(
     whole, styles = _bundle_run(store, named, data_dir)
     kinds_shown = named["kinds"] or [*reports.FIGURE_KINDS]
     tables, lacking = reports.tabulate_figures(whole, kinds_shown, named["metrics"])
-    given = {"width": (width,), "style": (style,), "out": (str(out or ""),)}
-    given |= {"plugin": tuple(map(str, plugin or ()))}
+    given: dict[str, Sequence[str]] = {
+        "width": (width,),
+        "style": (style,),
+        "out": (str(out or ""),),
+    }
+    given |= {"plugin": [*map(str, plugin or ())]}
     contents: dict[str, bytes] = {}
     for (task, kind, name), table in tables.items():
         command = _command_of(run, {**named, **given, "kinds": (kind,), "tasks": (task,)})

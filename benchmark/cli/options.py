@@ -29,6 +29,7 @@ __all__ = [
     "load_records",
     "load_tasks",
     "open_archive",
+    "require_names",
     "require_writable",
     "show_left_out",
     "split",
@@ -37,7 +38,7 @@ __all__ = [
 DEFAULT_OUT = Path("mocapbench-results")
 
 
-def _require_names(names: list[str] | None) -> list[str] | None:
+def require_names(names: list[str] | None) -> list[str] | None:
     """Refuse an option that names nothing, such as one of a variable that is not set."""
     if names and not all(split([text]) for text in names):
         raise typer.BadParameter("expected names, got none; leave the option out for all")
@@ -46,7 +47,7 @@ def _require_names(names: list[str] | None) -> list[str] | None:
 
 Names = Annotated[
     list[str] | None,
-    typer.Option(help="Names, repeated or separated by commas.", callback=_require_names),
+    typer.Option(help="Names, repeated or separated by commas.", callback=require_names),
 ]
 Out = Annotated[Path, typer.Option(help="The run directory: new, empty, or an earlier run's.")]
 DataDir = Annotated[

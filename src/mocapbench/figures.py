@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from mocapbench import reports
 from mocapbench.benchmark.errors import UnknownNameError
@@ -62,7 +64,7 @@ def error_bars(
     return _draw("error-bars", bundle_scores(scores, by), metric, ax)[0]
 
 
-def by_recording(scores: pd.DataFrame, metric: str = "", *, by: str = "gap") -> Any:
+def by_recording(scores: pd.DataFrame, metric: str = "", *, by: str = "gap") -> NDArray[Any]:
     """Draw the means of each recording by MSE, SMSE and MSLL, or by one metric.
 
     Parameters
@@ -75,7 +77,7 @@ def by_recording(scores: pd.DataFrame, metric: str = "", *, by: str = "gap") -> 
     ndarray of matplotlib.axes.Axes
         One for each metric.
     """
-    return _draw("by-case", bundle_scores(scores, by, "recording"), metric, None)
+    return np.array(_draw("by-case", bundle_scores(scores, by, "recording"), metric, None))
 
 
 def along(
@@ -169,13 +171,13 @@ def cost(scores: pd.DataFrame, metric: str = "", *, ax: Axes | None = None) -> A
     return _draw("cost", bundle_scores(scores), metric, ax)[0]
 
 
-def _draw(kind: str, bundle: Bundle, metric: str, ax: Axes | None) -> Any:
-    """Return the axes (n,) of a kind of figure."""
+def _draw(kind: str, bundle: Bundle, metric: str, ax: Axes | None) -> list[Axes]:
+    """Return the axes of a kind of figure."""
     require_extra("seaborn", "figures", "figures")
     return _draw_plot(reports.FIGURE_KINDS[kind], bundle, metric, ax)
 
 
-def _draw_plot(plot: reports.Plot, bundle: Bundle, metric: str, ax: Axes | None) -> Any:
+def _draw_plot(plot: reports.Plot, bundle: Bundle, metric: str, ax: Axes | None) -> list[Axes]:
     if metric and metric not in bundle.metrics:
         raise UnknownNameError("metric of these scores", metric, [*bundle.metrics])
     return reports.draw_on_axes(plot, bundle, [metric] if metric else [], ax)

@@ -84,7 +84,7 @@ def colour_of(style: DrawingStyle) -> str:
     return _colours()[names.get(name, f"series-{name}")]
 
 
-def dashes_of(style: DrawingStyle) -> tuple[float, tuple[float, ...] | None]:
+def dashes_of(style: DrawingStyle) -> Any:
     """Return the dashes that the page has for lines of a style."""
     found = re.search(rf"\.k{style.shape} > \.line {{ stroke-dasharray: ([\d ]+);", _style_sheets())
     return (0.0, tuple(float(n) / _DASHED_WIDTH for n in found[1].split()) if found else None)

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from numpy.typing import NDArray
 
 from mocapbench.basics.arrays import Array
 from mocapbench.reports.analysis.results import TaskResults
@@ -110,7 +111,7 @@ def _list_joints(
             yield (*about, names[joint], names[parent], x, y)
 
 
-def _choose_frames(hidden: Array) -> list[int]:
+def _choose_frames(hidden: NDArray[np.bool_]) -> list[int]:
     """Return frames at even times, from before the first hidden one to after the last."""
     found = np.flatnonzero(hidden)
     first, last = (found[0] - 1, found[-1] + 1) if len(found) else (0, len(hidden) - 1)

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
 from matplotlib import pyplot
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.bundle import Bundle
@@ -21,8 +19,8 @@ __all__ = ["draw_on_axes"]
 
 def draw_on_axes(
     plot: Plot, bundle: Bundle, metrics: Sequence[str], axes: Axes | None = None
-) -> NDArray[np.object_]:
-    """Return the axes (n,) on which the first figure of a kind is drawn.
+) -> list[Axes]:
+    """Return the axes on which the first figure of a kind is drawn.
 
     Parameters
     ----------
@@ -45,8 +43,8 @@ def draw_on_axes(
     if axes is None:
         figure = pyplot.figure(layout="constrained")
         draw_figure(figure, plot, table, styles)
-        return np.array(figure.axes, dtype=object)
+        return [*figure.axes]
     plot.draw(axes, table, styles)
     if shown := plot.keys(table):
         axes.legend(handles=legend_handles({label: styles[label] for label in shown}))
-    return np.array([axes], dtype=object)
+    return [axes]

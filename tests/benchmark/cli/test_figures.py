@@ -8,6 +8,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from mocapbench.reports import FIGURE_KINDS
+
 TASK = "toy-interpolation-1"
 LABELS = ("mohgp-3", "knn", "trivial")
 ROWS = [
@@ -99,6 +101,12 @@ def test_what_is_not_there_is_one_line_and_writes_nothing(cli, run, tmp_path, op
     assert cli("figures", run, "--out", tmp_path / "new", *options) == 2
     assert re.search(said, cli.printed)
     assert not (tmp_path / "new").exists()
+
+
+def test_the_help_names_every_kind(cli):
+    assert cli("figures", "--help") == 0
+    listed = re.sub(r"[│\s]+", " ", cli.printed)
+    assert all(kind in listed for kind in FIGURE_KINDS)
 
 
 def test_a_folder_that_is_no_run_is_named(cli, tmp_path):
