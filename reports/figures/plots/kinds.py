@@ -9,11 +9,11 @@ from mocapbench.reports.figures.plots.along_gap import AlongGap
 from mocapbench.reports.figures.plots.base import Plot
 from mocapbench.reports.figures.plots.by_case import ByCase
 from mocapbench.reports.figures.plots.calibration import Calibration
-from mocapbench.reports.figures.plots.cost import Cost
+from mocapbench.reports.figures.plots.cost_against_error import Cost
 from mocapbench.reports.figures.plots.covariances import Covariances
 from mocapbench.reports.figures.plots.error_bars import ErrorBars
 from mocapbench.reports.figures.plots.motion import StickFigures
-from mocapbench.reports.figures.plots.ranks import Ranks
+from mocapbench.reports.figures.plots.rank_diagram import Ranks
 
 __all__ = ["FIGURE_KINDS"]
 
@@ -29,3 +29,4 @@ FIGURE_KINDS: Mapping[str, Plot] = {
     "stick-figures": StickFigures(),
     "cost": Cost(),
 }
+"""Kinds of figures for papers, by name."""
