@@ -69,8 +69,12 @@ def by_recording(scores: pd.DataFrame, metric: str = "", *, by: str = "gap") -> 
 
     Parameters
     ----------
-    scores, metric, by
-        See `error_bars`.
+    scores : DataFrame
+        What `mocapbench.evaluate` returns.
+    metric : str, optional
+        By default MSE, or the first of the scores.
+    by : str, default="gap"
+        What counts as one: ``"gap"`` or ``"recording"``.
 
     Returns
     -------
@@ -92,8 +96,12 @@ def along(
         several numbers of training recordings.
     column : str
         A column that you added, such as that length.
-    metric, by, ax
-        See `error_bars`.
+    metric : str, optional
+        By default MSE, or the first of the scores.
+    by : str, default="gap"
+        What counts as one: ``"gap"`` or ``"recording"``.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -126,8 +134,10 @@ def calibration(scores: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
 
     Parameters
     ----------
-    scores, ax
-        See `error_bars`. There must be two metrics of coverage or more.
+    scores : DataFrame
+        What `mocapbench.evaluate` returns, with two metrics of coverage or more.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -143,8 +153,14 @@ def ranks(
 
     Parameters
     ----------
-    scores, metric, by, ax
-        See `error_bars`. There must be three models or more, and five gaps or recordings.
+    scores : DataFrame
+        What `mocapbench.evaluate` returns, of three models or more.
+    metric : str, optional
+        By default MSE, or the first of the scores.
+    by : str, default="gap"
+        What counts as one: ``"gap"`` or ``"recording"``.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------
@@ -160,8 +176,10 @@ def cost(scores: pd.DataFrame, metric: str = "", *, ax: Axes | None = None) -> A
     ----------
     scores : DataFrame
         What `mocapbench.evaluate` returns, with a column ``fit_seconds`` of yours.
-    metric, ax
-        See `error_bars`.
+    metric : str, optional
+        By default MSE, or the first of the scores.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
 
     Returns
     -------

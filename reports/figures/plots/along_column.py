@@ -16,7 +16,7 @@ from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels, choose_metrics
-from mocapbench.reports.figures.plots.look import Styles, fit_axis, scales_of, wrap_title
+from mocapbench.reports.figures.plots.look import Styles, fit_axis, scales_of, wrap_text
 from mocapbench.reports.figures.scores.along import N_BANDS, group_cases
 
 __all__ = ["AlongColumn"]
@@ -77,7 +77,7 @@ class AlongColumn(Plot):
         axes.set(
             xlabel=self.title,
             ylabel=panel["quantity"].iloc[0],
-            title=wrap_title(panel["panel"].iloc[0]),
+            title=wrap_text(panel["panel"].iloc[0]),
         )
 
     def height(self, panel: pd.DataFrame, width: float) -> float:

@@ -17,7 +17,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels, choose_metrics
-from mocapbench.reports.figures.plots.look import Styles, fit_axis, scales_of, wrap_title
+from mocapbench.reports.figures.plots.look import Styles, fit_axis, scales_of, wrap_text
 from mocapbench.reports.figures.styles import DrawingStyle
 
 __all__ = ["ByCase"]
@@ -67,7 +67,7 @@ class ByCase(Plot):
         axes.tick_params("x", rotation=90 if _stand_upright(panel) else 0)
         place = axes.get_subplotspec()
         axes.tick_params("x", labelbottom=place is None or place.is_last_row())
-        axes.set(xlabel="", ylabel="", title=wrap_title(panel["panel"].iloc[0]))
+        axes.set(xlabel="", ylabel="", title=wrap_text(panel["panel"].iloc[0]))
 
     def height(self, panel: pd.DataFrame, width: float) -> float:
         """Return the height of a low panel."""

@@ -65,8 +65,10 @@ def render_figure(
     ----------
     kind : str
         Of `FIGURE_KINDS`.
-    table, styles
-        See `draw_figure`.
+    table : DataFrame
+        As `tabulate_figures` returns it.
+    styles : mapping of str to DrawingStyle
+        Of all labels of the run, so that a model has the colour of the report.
     size : tuple of float
         Of the text in points, and the width of the figure in inches.
     formats : sequence of str

@@ -17,7 +17,7 @@ from mocapbench.reports.export.means import columns_of
 from mocapbench.reports.export.selection import order_labels
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import choose_metrics
-from mocapbench.reports.figures.plots.look import Styles, fit_axis, scales_of, wrap_title
+from mocapbench.reports.figures.plots.look import NARROW, Styles, fit_axis, scales_of, wrap_text
 
 __all__ = ["ErrorBars"]
 
@@ -65,7 +65,8 @@ class ErrorBars(Plot):
         plot.theme({}).on(axes).plot()
         fit_axis(axes, "x", [*panel["value"], *panel["mean"]])
         first = panel.iloc[0]
-        axes.set(xlabel=first["quantity"], ylabel="", title=wrap_title(first["panel"]))
+        quantity = wrap_text(first["quantity"], NARROW)
+        axes.set(xlabel=quantity, ylabel="", title=wrap_text(first["panel"]))
 
     def height(self, panel: pd.DataFrame, width: float) -> float:
         """Return room for a row for each model."""

@@ -22,6 +22,7 @@ __all__ = [
     "EM",
     "LOOKS",
     "MARKERS",
+    "NARROW",
     "Styles",
     "add_legend",
     "colour_of",
@@ -33,7 +34,7 @@ __all__ = [
     "scales_of",
     "settings_of",
     "text_size",
-    "wrap_title",
+    "wrap_text",
 ]
 
 Styles = Mapping[str, DrawingStyle]
@@ -47,8 +48,8 @@ MARKERS = ("o", "s", "^", "D", "v", "P")
 _DASHED_WIDTH = 1.4
 """Of the page's lines, of which matplotlib takes dashes as multiples."""
 
-_TITLE = 36
-"""Letters in a line."""
+NARROW, _LINE = 20, 36
+"""Letters in a line of axes beside names of models, and of axes as wide as a column."""
 
 _FIXED = {
     "axes.grid": False,
@@ -132,9 +133,9 @@ def fit_axis(axes: Axes, name: str, values: Iterable[float], ends: Iterable[floa
     axes.set(**{f"{name}lim": (scale.low, scale.high)})
 
 
-def wrap_title(text: str) -> str:
-    """Return the title of a panel in lines that the narrowest column of a paper has room for."""
-    return fill(text, _TITLE)
+def wrap_text(text: str, letters: int = _LINE) -> str:
+    """Return a heading in lines of so many letters, by default as a column of a paper has room."""
+    return fill(text, letters)
 
 
 def text_size() -> float:

@@ -15,7 +15,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.pictures import Motions
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.look import Styles, colour_of, wrap_title
+from mocapbench.reports.figures.plots.look import Styles, colour_of, wrap_text
 from mocapbench.reports.figures.styles import TRUTH
 
 __all__ = ["StickFigures"]
@@ -65,7 +65,7 @@ class StickFigures(Plot):
         axes.tick_params(length=0)
         axes.spines[:].set_visible(False)
         axes.set_yticks([])
-        axes.set_title(wrap_title(panel["panel"].iloc[0]))
+        axes.set_title(wrap_text(panel["panel"].iloc[0]))
 
     def height(self, panel: pd.DataFrame, width: float) -> float:
         """Return the height of the figures on equal scales."""

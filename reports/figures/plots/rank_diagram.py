@@ -15,7 +15,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import choose_metrics
-from mocapbench.reports.figures.plots.look import Styles, scales_of
+from mocapbench.reports.figures.plots.look import NARROW, Styles, scales_of, wrap_text
 from mocapbench.reports.figures.scores.ranks import rank_labels
 
 __all__ = ["Ranks"]
@@ -55,7 +55,8 @@ class Ranks(Plot):
         )
         plot.theme({}).on(axes).plot()
         _draw_bars(axes, panel)
-        axes.set(ylabel="", xlabel=f"mean rank by {panel['quantity'].iloc[0]} (1 is best)")
+        about = f"mean rank by {panel['quantity'].iloc[0]} (1 is best)"
+        axes.set(ylabel="", xlabel=wrap_text(about, NARROW))
 
     def height(self, panel: pd.DataFrame, width: float) -> float:
         """Return room for a row for each model."""
