@@ -16,7 +16,6 @@ MOST_MODULES = 16
 LISTS = {
     "baselines": 32,  # one module a model
     "benchmark/cli": 24,  # one module a command
-    "benchmark/cli": 21,  # one module a command
     "benchmark/tasks": 21,  # one module a protocol
     "metrics": 17,  # one module a kind of score
     "baselines/alignment": 17,
