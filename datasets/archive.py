@@ -195,7 +195,8 @@ def open_archive(
     Returns
     -------
     Archive
-        Whose addresses are ``cmu:SUBJECT_TRIAL`` and ``gait:SUBJECT_TRIAL``.
+        Whose addresses are ``cmu:SUBJECT_TRIAL``, with ``.c3d`` for its markers, and
+        ``gait:SUBJECT_TRIAL``.
 
     See Also
     --------

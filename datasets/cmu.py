@@ -1,14 +1,16 @@
 """The CMU Graphics Lab Motion Capture Database: in a folder, in the cache, or to be downloaded.
 
-The original Acclaim files have the same paths as on the server, such as ``subjects/35/35.asf`` and
-``subjects/35/35_02.amc``. The user's folders are searched in order and before the
-cache, and only `CMULibrary.fetch` downloads.
+The original files have the same paths as on the server: joint angles are in Acclaim files such as
+``subjects/35/35.asf`` and ``subjects/35/35_02.amc``, the markers that they were made from in
+``subjects/35/35_02.c3d``. The user's folders are searched in order and before the cache, and only
+`CMULibrary.fetch` downloads.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
@@ -24,11 +26,13 @@ from mocapbench.datasets.acclaim.skeleton_reader import read_skeleton
 from mocapbench.datasets.digests import (
     DigestMismatch,
     DigestRegistry,
+    comparable_bytes,
     read_digests,
-    with_unix_line_ends,
 )
-from mocapbench.datasets.errors import FetchError
-from mocapbench.datasets.keys import split_key
+from mocapbench.datasets.errors import FetchError, SkeletonUnavailable
+from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.markers.c3d import C3DFormat
+from mocapbench.datasets.keys import MARKERS, split_key
 from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import Recording
 
@@ -59,7 +63,7 @@ _File = tuple[Path, bytes]
 
 
 class CMULibrary(Library):
-    """Recordings of the CMU database by key, ``SUBJECT_TRIAL``.
+    """Recordings of the CMU database by key, ``SUBJECT_TRIAL``, and their markers with ``.c3d``.
 
     Parameters
     ----------
@@ -89,7 +93,11 @@ class CMULibrary(Library):
     ''
     """
 
-    layout: ClassVar[tuple[str, ...]] = ("subjects/*/*.asf", "subjects/*/*.amc")
+    layout: ClassVar[tuple[str, ...]] = (
+        "subjects/*/*.asf",
+        "subjects/*/*.amc",
+        "subjects/*/*.c3d",
+    )
 
     def __init__(
         self,
@@ -115,19 +123,21 @@ class CMULibrary(Library):
         self.backoff: float = backoff
 
     def where(self, key: str) -> str:
-        """Return the path of the .amc file, or an empty string unless both files are here."""
+        """Return the path of the .amc or .c3d file; empty unless all its files are here."""
         found = [self._find(path) for path in _paths(key)]
         return "" if None in found else str(found[-1])
 
     def recording(self, key: str) -> Recording:
-        """Return all channels of the motion.
+        """Return all channels of the motion, or the coordinates of all markers.
 
         Raises
         ------
         FileNotFoundError, DigestMismatch, AcclaimError
             As `motion`.
+        FormatError
+            If a .c3d file cannot be parsed.
         """
-        return self.motion(key).recording(key)
+        return _parse_files(key, self._read_intact_files(key))
 
     def motion(self, key: str) -> Motion:
         """Return the motion, from files whose digests were verified.
@@ -140,8 +150,10 @@ class CMULibrary(Library):
             If a file is not the registered or pinned one.
         AcclaimError
             If a file cannot be parsed.
+        SkeletonUnavailable
+            If it is a recording of markers.
         """
-        (skeleton_file, _), (motion_file, _) = self._read_intact_files(key)
+        (skeleton_file, _), (motion_file, _) = self._read_acclaim_files(key)
         return read_motion(motion_file, read_skeleton(skeleton_file))
 
     def skeleton(self, key: str) -> Skeleton:
@@ -149,16 +161,16 @@ class CMULibrary(Library):
 
         Raises
         ------
-        FileNotFoundError, DigestMismatch, AcclaimError
+        FileNotFoundError, DigestMismatch, AcclaimError, SkeletonUnavailable
             As `motion`.
         """
-        (skeleton_file, _), _ = self._read_intact_files(key)
+        (skeleton_file, _), _ = self._read_acclaim_files(key)
         return read_skeleton(skeleton_file)
 
     def digest(self, key: str) -> str:
-        """Return the SHA-256 of the .asf followed by the .amc, line ends normalised to LF."""
+        """Return the SHA-256 of the .c3d, or of the .asf and the .amc with LF as line ends."""
         files = self._read_intact_files(key)
-        return sha256(b"".join(with_unix_line_ends(data) for _, data in files)).hexdigest()
+        return sha256(b"".join(comparable_bytes(str(p), data) for p, data in files)).hexdigest()
 
     def fetch(self, key: str) -> None:
         """Download the files that are not here, and those in the cache that are wrong.
@@ -178,11 +190,11 @@ class CMULibrary(Library):
                 self._downloader().fetch(path, check)
         try:
             self._read_intact_files(key)
-        except AcclaimError as problem:
+        except (AcclaimError, FormatError) as problem:
             self._discard_new_downloads(key)
             raise FetchError(
                 key,
-                f"expected a skeleton and a motion, got {problem}",
+                f"expected a skeleton and a motion, or markers, got {problem}",
                 "try again later, or name a folder that holds the recordings with --data-dir",
             ) from problem
 
@@ -212,16 +224,28 @@ class CMULibrary(Library):
         files = (folder / path for folder in self._list_folders())
         return next((file for file in files if file.is_file()), None)
 
-    def _read_intact_files(self, key: str) -> tuple[_File, _File]:
-        """Return both files; what nobody has seen before is recorded once both were read."""
+    def _read_acclaim_files(self, key: str) -> Sequence[_File]:
+        """Return the skeleton's file and the motion's.
+
+        Raises
+        ------
+        SkeletonUnavailable
+            If the recording is of markers.
+        """
+        if key.endswith(MARKERS):
+            raise SkeletonUnavailable(key, type(self).__name__)
+        return self._read_intact_files(key)
+
+    def _read_intact_files(self, key: str) -> Sequence[_File]:
+        """Return the files; what nobody has seen before is recorded once all could be parsed."""
         found = [(path, *self._read_intact_file(key, path)) for path in _paths(key)]
-        (_, skeleton, _), (_, motion, _) = found
+        files = [file for _, file, _ in found]
         new = [(path, file) for path, file, is_new in found if is_new]
         if new:
-            read_motion(motion[0], read_skeleton(skeleton[0]))
+            _parse_files(key, files)
         for path, (file, data) in new:
             self.digests.record(path, data, str(file))
-        return skeleton, motion
+        return files
 
     def _read_intact_file(self, key: str, path: str) -> tuple[_File, bool]:
         """Return a file, and whether nobody has seen its content before."""
@@ -250,9 +274,20 @@ class CMULibrary(Library):
                 file.unlink()
 
 
-def _paths(key: str) -> tuple[str, str]:
-    subject, _ = split_key(key)
+def _paths(key: str) -> Sequence[str]:
+    """Return the paths of the files of a recording below the database's root."""
+    subject, _ = split_key(key.removesuffix(MARKERS))
+    if key.endswith(MARKERS):
+        return (f"subjects/{subject}/{key}",)
     return f"subjects/{subject}/{subject}.asf", f"subjects/{subject}/{key}.amc"
+
+
+def _parse_files(key: str, files: Sequence[_File]) -> Recording:
+    """Return the recording of a skeleton and a motion, or of markers alone."""
+    (*skeletons, (last, _)) = files
+    if not skeletons:
+        return replace(C3DFormat().read(last), name=key)
+    return read_motion(last, read_skeleton(skeletons[0][0])).recording(key)
 
 
 def _renewal(key: str) -> str:

@@ -1,6 +1,6 @@
 """Digests of files and recordings, and the registry of the right ones.
 
-Digests of files do not depend on line ends.
+Digests of files of text do not depend on line ends.
 """
 
 from __future__ import annotations
@@ -20,14 +20,15 @@ __all__ = [
     "DigestMismatch",
     "DigestRegistry",
     "UnregisteredDigestWarning",
+    "comparable_bytes",
     "content_digest",
     "read_digests",
-    "with_unix_line_ends",
 ]
 
 _ROW = re.compile(r"^(\S+)\t([0-9a-f]{64})$", re.MULTILINE)
 
 
+_BINARY = (".c3d",)
 _REMOVE = "the file is damaged or another edition: remove it and fetch it again"
 
 
@@ -71,9 +72,16 @@ def content_digest(recording: Recording) -> str:
     return sha256(names + recording.times.tobytes() + recording.values.tobytes()).hexdigest()
 
 
-def with_unix_line_ends(data: bytes) -> bytes:
-    """Return the bytes with CRLF replaced by LF; copies of the database differ only in these."""
-    return data.replace(b"\r\n", b"\n")
+def comparable_bytes(path: str, data: bytes) -> bytes:
+    """Return what copies of a file share: of text all but CRLF and LF, of other files every byte.
+
+    Parameters
+    ----------
+    path : str
+        Whose suffix says which it is.
+    data : bytes
+    """
+    return data if path.endswith(_BINARY) else data.replace(b"\r\n", b"\n")
 
 
 def read_digests(path: Path) -> dict[str, str]:
@@ -121,7 +129,7 @@ class DigestRegistry:
             If its digest is neither new nor the known or recorded one.
         """
         known = self.known.get(path)
-        expected, got = known or read_digests(self.pins).get(path), _digest(data)
+        expected, got = known or read_digests(self.pins).get(path), _digest(path, data)
         if expected is None or got == expected or path in self.diverse:
             return got != expected
         if known:
@@ -142,7 +150,7 @@ class DigestRegistry:
         UnregisteredDigestWarning
             Always.
         """
-        digest = _digest(data)
+        digest = _digest(path, data)
         diverse = path in self.diverse
         from_now_on = "not pinned: different copies are in use" if diverse else "now expected"
         warnings.warn(
@@ -164,5 +172,5 @@ class DigestRegistry:
             write_text(self.pins, "".join(f"{path}\t{digest}\n" for path, digest in kept.items()))
 
 
-def _digest(data: bytes) -> str:
-    return sha256(with_unix_line_ends(data)).hexdigest()
+def _digest(path: str, data: bytes) -> str:
+    return sha256(comparable_bytes(path, data)).hexdigest()

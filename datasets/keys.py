@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["split_key", "subject_of"]
+__all__ = ["MARKERS", "split_key", "subject_of"]
+
+MARKERS = ".c3d"
+"""What ends a key that stands for the markers of a recording, such as ``135_02.c3d``."""
 
 _KEY = re.compile(r"([0-9]{2,3})_([0-9]{2})")
 
@@ -24,11 +27,11 @@ def split_key(key: str) -> tuple[str, str]:
 
 
 def subject_of(address: str) -> str:
-    """Return whose recording ``cmu:35_02`` or ``35_02`` is: the subject's number, ``35``.
+    """Return whose recording ``cmu:35_02``, ``35_02`` or ``35_02.c3d`` is: subject ``35``.
 
     Raises
     ------
     ValueError
         If the key is malformed.
     """
-    return split_key(address.rpartition(":")[2])[0]
+    return split_key(address.rpartition(":")[2].removesuffix(MARKERS))[0]

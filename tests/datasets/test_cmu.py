@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from c3d_files import write_bytes
 
 from mocapbench.datasets import (
     CMU_ACKNOWLEDGEMENT,
@@ -14,8 +15,10 @@ from mocapbench.datasets import (
     CMULibrary,
     DigestMismatch,
     FetchError,
+    SkeletonUnavailable,
     UnregisteredDigestWarning,
     registered_digests,
+    subject_of,
 )
 
 ASF, AMC = "subjects/01/01.asf", "subjects/01/01_02.amc"
@@ -241,3 +244,52 @@ def test_a_library_can_be_sent_to_another_process(library, files, tmp_path):
 
 def test_the_acknowledgement_names_the_grant():
     assert "NSF EIA-0196217" in CMU_ACKNOWLEDGEMENT
+
+
+MARKED = "subjects/01/01_02.c3d"
+LABELS = ("LKNE", "LA\r\n", "LHEE", "LTOE")
+PLACES = np.arange(24.0).reshape(2, 4, 3) + 1
+
+
+@pytest.fixture
+def markers(server, known, tmp_path):
+    """Return the bytes of a file of markers that the server has, with CRLF among them."""
+    data = write_bytes(tmp_path / "made.c3d", PLACES, labels=LABELS).read_bytes()
+    assert b"\r\n" in data
+    server.files[MARKED], known[MARKED] = data, sha256(data).hexdigest()
+    return data
+
+
+def test_markers_of_a_recording_are_one_file_beside_its_angles(library, markers, tmp_path):
+    library.fetch("01_02.c3d")
+    assert library.where("01_02.c3d") == str(tmp_path / "cache" / MARKED)
+    recording = library.recording("01_02.c3d")
+    assert recording.name == "01_02.c3d"
+    assert (recording.channels[0], recording.units[0]) == ("LKNE.x", "mm")
+    np.testing.assert_array_equal(recording.values, PLACES.reshape(2, 12))
+    assert library.digest("01_02.c3d") == sha256(markers).hexdigest()
+    assert library.where("01_02") == ""
+
+
+def test_line_ends_in_a_file_of_numbers_are_numbers(library, markers, tmp_path):
+    store(tmp_path / "data", {MARKED: markers.replace(b"\r\n", b"\n\n")})
+    with pytest.raises(DigestMismatch, match=r"01_02\.c3d"):
+        library.recording("01_02.c3d")
+
+
+def test_markers_have_neither_a_skeleton_nor_angles(library, markers, tmp_path):
+    store(tmp_path / "data", {MARKED: markers})
+    for read in (library.skeleton, library.motion):
+        with pytest.raises(SkeletonUnavailable, match=r"01_02\.c3d"):
+            read("01_02.c3d")
+
+
+def test_a_download_that_is_no_file_of_markers_is_not_kept(library, server, tmp_path):
+    server.files[MARKED] = b"not found"
+    with pytest.raises(FetchError, match="markers"):
+        library.fetch("01_02.c3d")
+    assert not (tmp_path / "cache" / MARKED).exists()
+
+
+def test_the_subject_of_markers_is_that_of_the_recording():
+    assert subject_of("cmu:135_02.c3d") == "135"
