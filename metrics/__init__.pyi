@@ -3,7 +3,7 @@ from .base import Direction, Metric, Score, has_poses, metric
 from .calibration import coverage_50, coverage_80, coverage_90, coverage_95, crps, pit, sharpness
 from .clustering import adjusted_rand, purity
 from .contact import foot_skate, sample_foot_skate
-from .errors import mse, smse, smse_pooled
+from .errors import mae, mse, smse, smse_pooled
 from .horizons import (
     mpjpe_at_2,
     mpjpe_at_4,
@@ -51,6 +51,7 @@ __all__ = [
     "jerk_ratio",
     "logdet_child",
     "logdet_parent",
+    "mae",
     "mcc",
     "mcc_best",
     "metric",

@@ -15,6 +15,7 @@ from mocapbench.metrics.entries import (
 from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
+    "mae",
     "mse",
     "smse",
     "smse_pooled",
@@ -23,6 +24,59 @@ __all__ = [
 
 def _squared_error(outcome: Imputation) -> Array:
     return np.asarray((outcome.truth - outcome.mean) ** 2)
+
+
+@metric(
+    title="Mean absolute error (MAE)",
+    direction=Direction.LOWER,
+    sentence="Mean absolute difference of prediction and truth at hidden entries.",
+    unit="that of the data",
+    range="0 to ∞",
+    source="Kieu et al. 2022",
+)
+def mae(outcome: Imputation) -> Score:
+    r"""Return the mean of ``|y − μ|`` over the hidden entries.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames.
+
+    Returns
+    -------
+    Score
+        With parts ``"output"`` (D,) and ``"frame"`` (N,), the means over the hidden entries of
+        each.
+
+    Warnings
+    --------
+    Where outputs are coordinates of markers, it is about half the distance from the true place:
+    compare it with no error that is a distance.
+
+    Notes
+    -----
+    With H the set of hidden entries (t, d):
+
+    .. math:: \mathrm{MAE} = \frac{1}{|H|} \sum_{(t, d) \in H} | y_{td} - \mu_{td} |
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, mae
+    >>> outcome = Imputation(
+    ...     truth=np.array([[1.0, 5.0], [3.0, 9.0]]),
+    ...     mean=np.array([[1.0, 5.0], [2.0, 5.0]]),
+    ...     variance=None,
+    ...     hidden=np.full((2, 2), True),
+    ...     visible_mean=np.zeros(2),
+    ...     visible_variance=np.ones(2),
+    ... )
+    >>> mae(outcome).value
+    1.25
+    >>> mae(outcome).parts["output"]
+    array([0.5, 2. ])
+    """
+    return average(np.abs(outcome.truth - outcome.mean), outcome.hidden)
 
 
 @metric(

@@ -90,6 +90,8 @@ class TaskPage:
         From our cases, labels and metrics to the paper's names; what the paper lacks is left out.
     published_mean : str
         The paper's name of the mean over our cases, if it prints one.
+    published_folds : mapping of str to sequence of float
+        From our cases to the values of the first metric that a paper prints fold by fold.
     not_comparable : mapping of (label, metric) to str
         Why a published value cannot be compared with ours. The metric ``"*"`` stands for all.
     not_comparable_rows : mapping of (case, label) to str
@@ -130,6 +132,7 @@ class TaskPage:
     published_models: Mapping[str, str] = field(default_factory=dict)
     published_metrics: Mapping[str, str] = field(default_factory=dict)
     published_mean: str = ""
+    published_folds: Mapping[str, Sequence[float]] = field(default_factory=dict)
     not_comparable: Mapping[tuple[str, str], str] = field(default_factory=dict)
     not_comparable_rows: Mapping[tuple[str, str], str] = field(default_factory=dict)
     exempt: Mapping[str, str] = field(default_factory=dict)

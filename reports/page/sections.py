@@ -17,6 +17,7 @@ from mocapbench.reports.page.notes import task_notes
 from mocapbench.reports.scores.table import score_table
 from mocapbench.reports.tables.base import Table
 from mocapbench.reports.tables.best_reference import best_reference_table
+from mocapbench.reports.tables.by_fold import fold_table
 from mocapbench.reports.tables.calibration import calibration_table
 from mocapbench.reports.tables.control import negative_control_table
 from mocapbench.reports.tables.cost import cost_table
@@ -94,5 +95,6 @@ def _metric_table(
 
 def _summaries(results: TaskResults, first: str) -> list[Table]:
     published = [verdict_table(results, metric) for metric in results.layout.page.metrics]
-    built = [contrast_table(results, first), *published, *(build(results) for build in SUMMARIES)]
+    pairs = [contrast_table(results, first), fold_table(results, first)]
+    built = [*pairs, *published, *(build(results) for build in SUMMARIES)]
     return [table for table in built if table is not None]

@@ -42,6 +42,10 @@ CITATIONS = {
         "Guesses Towards Next Stages for High-Quality Human Motion Prediction, Conference on "
         "Computer Vision and Pattern Recognition, 2022"
     ),
+    "Kieu": (
+        "D. H. Kieu and others, Locally weighted PCA regression to recover missing markers in "
+        "human motion data, PLoS ONE 17(8), 2022, and the repository dangkh/LWPCA"
+    ),
     "Wan": "GGMotion, values printed in the repository of its code, 2025",
 }
 """Short name to full citation."""

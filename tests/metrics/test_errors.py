@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.metrics import mse, rms_per_frame, smse, smse_pooled
+from mocapbench.metrics import mae, mse, rms_per_frame, smse, smse_pooled
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -16,6 +16,8 @@ def test_two_frames_of_two_outputs_by_hand(make):
     assert mse(outcome).value == 1.5
     np.testing.assert_array_equal(mse(outcome).parts["output"], [0.5, 2.5])
     np.testing.assert_array_equal(mse(outcome).parts["frame"], [2.0, 1.0])
+    assert mae(outcome).value == 1.0
+    np.testing.assert_array_equal(mae(outcome).parts["output"], [0.5, 1.5])
     np.testing.assert_allclose(smse(outcome).parts["output"], [0.5, 0.625])
     assert smse(outcome).value == pytest.approx(0.5625)
     assert smse_pooled(outcome).value == pytest.approx(1.5 / 3.5)
@@ -30,6 +32,7 @@ def test_only_hidden_entries_and_frames_are_averaged(make):
         hidden=np.array([[True, False], [False, False], [True, False]]),
     )
     assert mse(outcome).value == 5.0
+    assert mae(outcome).value == 2.0
     np.testing.assert_array_equal(mse(outcome).parts["output"], [5.0, np.nan])
     np.testing.assert_array_equal(rms_per_frame(outcome).parts["frame"], [1.0, np.nan, 3.0])
     assert rms_per_frame(outcome).value == 2.0

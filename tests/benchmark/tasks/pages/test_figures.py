@@ -29,6 +29,7 @@ ENTRANTS = {
     "exaggerated-synthesis": ("hgp", "replay"),
     "soccer-synthesis": ("hgp", "replay"),
     "marker-gaps": ("linear", "trivial"),
+    "marker-masks": ("linear", "trivial"),
     **dict.fromkeys(
         (
             *("lost-limb", "lost-markers", "in-betweening"),
