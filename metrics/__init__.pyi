@@ -23,7 +23,7 @@ from .outcomes.synthesis import Synthesis
 from .positions import bone_length_error, mpjpe, mpjpe_global
 from .recovery import frobenius_child, frobenius_parent, logdet_child, logdet_parent
 from .similarity import mcc, mcc_best, mlc, mlc_best, variance_ratio
-from .spectrum import npss, sample_npss
+from .spectrum import npss, npss_real_part, sample_npss
 
 __all__ = [
     "Clustering",
@@ -68,6 +68,7 @@ __all__ = [
     "mse",
     "msll",
     "npss",
+    "npss_real_part",
     "pit",
     "purity",
     "rms_angle",
