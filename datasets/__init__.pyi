@@ -27,6 +27,7 @@ from .kinematics import (
     joint_trajectories,
     position_channels,
 )
+from .lafan1.takes import LaFAN1Library
 from .library import Library, named_folders
 from .people import People, generated_people, read_people
 from .preprocessing import (
@@ -73,6 +74,7 @@ __all__ = [
     "FrameByJointBy3",
     "Frames",
     "GaitLibrary",
+    "LaFAN1Library",
     "Layer",
     "Library",
     "Mask",

@@ -12,6 +12,7 @@ from .horizons import (
     mpjpe_at_14,
     mpjpe_at_25,
 )
+from .in_betweening import l2p, l2q
 from .jerk import jerk_ratio, sample_jerk_ratio
 from .likelihood import msll
 from .norms import angle_error_per_frame, rms_per_frame, root_error_per_frame
@@ -49,6 +50,8 @@ __all__ = [
     "frobenius_parent",
     "has_poses",
     "jerk_ratio",
+    "l2p",
+    "l2q",
     "logdet_child",
     "logdet_parent",
     "mae",

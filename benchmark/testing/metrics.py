@@ -21,6 +21,7 @@ from mocapbench.metrics import (
     SampledPoses,
     Synthesis,
 )
+from mocapbench.metrics.in_betweening import QUATERNION
 
 __all__ = ["check_metric"]
 
@@ -35,7 +36,8 @@ def _imputed_poses() -> ImputedPoses:
     truth[:, 0, 2] = np.sin(TIMES)
     gap = np.outer(GAP.any(axis=1), [False, True])
     mean = truth + 0.1 * gap[..., None] * np.cos(9.0 * TIMES)[:, None, None]
-    return ImputedPoses(truth, mean, gap, gap, _JOINTS, (-1, 0), TIMES)
+    spread = np.ones((2, 3))
+    return ImputedPoses(truth, mean, gap, gap, _JOINTS, (-1, 0), TIMES, spread=spread)
 
 
 def _sampled_poses() -> SampledPoses:
@@ -79,7 +81,13 @@ _CONTINUED = replace(
     place_joints=_continued_poses,
 )
 OUTCOMES: Mapping[type, tuple[Any, ...]] = {
-    Imputation: (_IMPUTED, replace(_IMPUTED, units=("cm", "cm")), _CONTINUED),
+    Imputation: (
+        *(
+            replace(_IMPUTED, units=units)
+            for units in (("deg", ""), ("cm",) * 2, (QUATERNION,) * 2)
+        ),
+        _CONTINUED,
+    ),
     Synthesis: (
         Synthesis(
             np.stack([r.values for r in COMPLETE[:2]]),

@@ -39,6 +39,8 @@ class ImputedPoses:
         Seconds, increasing within a recording.
     starts : tuple of int
         The first frame of each recording.
+    spread : ndarray of shape (J, 3) or None
+        Standard deviations of coordinates in training, by which errors may be divided.
 
     Raises
     ------
@@ -54,6 +56,7 @@ class ImputedPoses:
     parents: tuple[int, ...]
     times: NDArray[np.float64]
     starts: tuple[int, ...] = (0,)
+    spread: Positions | None = None
 
     def __post_init__(self) -> None:
         shape = (len(self.times), len(self.joints))

@@ -42,6 +42,18 @@ CITATIONS = {
         "Guesses Towards Next Stages for High-Quality Human Motion Prediction, Conference on "
         "Computer Vision and Pattern Recognition, 2022"
     ),
+    "Harvey": (
+        "F. G. Harvey, M. Yurick, D. Nowrouzezahrai and C. Pal, Robust Motion In-betweening, ACM "
+        "Transactions on Graphics 39(4), 2020, by the code of the data set LaFAN1"
+    ),
+    "Oreshkin": (
+        "B. N. Oreshkin and others, Motion Inbetweening via Deep Delta-Interpolator, 2022, values "
+        "printed in the repository of its code"
+    ),
+    "Qin": (
+        "J. Qin and others, Motion In-betweening via Two-stage Transformers, ACM Transactions on "
+        "Graphics 41(6), 2022, values printed in the repository of its code"
+    ),
     "Kieu": (
         "D. H. Kieu and others, Locally weighted PCA regression to recover missing markers in "
         "human motion data, PLoS ONE 17(8), 2022, and the repository dangkh/LWPCA"

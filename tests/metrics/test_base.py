@@ -22,8 +22,9 @@ from mocapbench.metrics.horizons import HORIZONS
 
 METRICS = [point.load() for point in entry_points(group="mocapbench.metrics")]
 CONTINUED = {f"mpjpe_at_{frame}" for frame in HORIZONS}
-SCORED = [metric for metric in METRICS if metric.name not in CONTINUED]
-"""Those of outcomes that need not end with hidden frames."""
+OF_ROTATIONS = {"l2p", "l2q"}
+SCORED = [metric for metric in METRICS if metric.name not in CONTINUED | OF_ROTATIONS]
+"""Those of outcomes that need neither end with hidden frames nor be of rotations."""
 
 
 def as_lists(value):

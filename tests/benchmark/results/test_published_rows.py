@@ -23,7 +23,7 @@ OF_THEIR_OWN = {
     },
     **{
         name: {value.model for value in VALUES if value.task == name}
-        for name in ("marker-masks", "motion-prediction", "motion-prediction-8-windows")
+        for name in ("lafan1", "marker-masks", "motion-prediction", "motion-prediction-8-windows")
     },
 }
 """Models that have no entrant here: the report shows them as columns of published values."""

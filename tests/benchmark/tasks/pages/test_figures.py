@@ -28,6 +28,7 @@ ENTRANTS = {
     "walking-synthesis": ("mohgp-3", "replay"),
     "exaggerated-synthesis": ("hgp", "replay"),
     "soccer-synthesis": ("hgp", "replay"),
+    "lafan1": ("linear", "trivial"),
     "marker-gaps": ("linear", "trivial"),
     "marker-masks": ("linear", "trivial"),
     **dict.fromkeys(

@@ -102,7 +102,7 @@ def smoke(request, posed):
 
 def test_the_kind_is_that_of_the_problem(smoke):
     task, _, problem = smoke
-    assert type(problem) is KINDS[task.page.kind]
+    assert isinstance(problem, KINDS[task.page.kind])
 
 
 def test_another_page_changes_no_problem_and_no_key(posed, smoke):
