@@ -90,7 +90,8 @@ class InBetweenProblem(ImputeProblem):
         pairs = zip(known, self.truth, solution, strict=True)
         filled = [np.where(visible, values, p.mean) for visible, values, p in pairs]
         truth, mean = self._list_rotations(self.truth), self._list_rotations(filled)
-        seen = np.repeat(np.concatenate(known).all(axis=1)[:, np.newaxis], truth.shape[1], axis=1)
+        whole = np.concatenate(known).all(axis=1, keepdims=True)
+        seen = np.repeat(whole, truth.shape[1], axis=1)
         return Imputation(
             truth=truth,
             mean=mean,

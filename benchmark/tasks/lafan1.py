@@ -119,7 +119,7 @@ def _list_windows(
 ) -> Iterator[Recording]:
     """Yield some frames of each window as a recording."""
     channels = rotation_channels(skeleton)
-    units = ["cm" if ".t" in channel else "" for channel in channels]
+    units = tuple("cm" if ".t" in channel else "" for channel in channels)
     for number, (path, rotations) in enumerate(zip(*windows, strict=True), start=1):
         values = np.hstack([path, rotations.reshape(len(path), -1)])[frames]
         times = np.arange(len(values)) / RATE
