@@ -34,7 +34,7 @@ def archive(file):
 
 def test_the_packages_own_libraries_are_found_and_built_like_any_other(tmp_path):
     points = entry_points(group="mocapbench.libraries")
-    assert {point.name for point in points} == {"cmu", "files", "gait", "rotations"}
+    assert {point.name for point in points} == {"cmu", "files", "gait", "lafan1", "rotations"}
     for point in points:
         library = point.load()(tmp_path)
         assert isinstance(library, Library)
