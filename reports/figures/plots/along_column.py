@@ -16,7 +16,7 @@ from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels, choose_metrics
-from mocapbench.reports.figures.plots.look import Styles, fit_axis, scales_of, wrap_text
+from mocapbench.reports.figures.plots.look import Styles, fit_axis, scale_mark, scales_of, wrap_text
 from mocapbench.reports.figures.scores.along import N_BANDS, group_cases
 
 __all__ = ["AlongColumn"]
@@ -66,7 +66,11 @@ class AlongColumn(Plot):
                 ymax="high",
                 legend=False,
             )
-            .add(objects.Line(pointsize=3.5), linestyle="label", legend=False)
+            .add(
+                objects.Line(linewidth=scale_mark(1.2), pointsize=scale_mark(3.5)),
+                linestyle="label",
+                legend=False,
+            )
             .scale(**scales_of(panel["label"], styles))
         )
         plot.theme({}).on(axes).plot()

@@ -14,7 +14,7 @@ from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.look import Styles, scales_of
+from mocapbench.reports.figures.plots.look import Styles, scale_mark, scales_of
 from mocapbench.reports.figures.scores.best import best_labels
 from mocapbench.reports.figures.scores.gap_error import N_BEST, errors_along_gaps
 
@@ -63,7 +63,7 @@ class AlongGap(Plot):
                 ymax="high",
                 legend=False,
             )
-            .add(objects.Line(), linestyle="label", legend=False)
+            .add(objects.Line(linewidth=scale_mark(1.2)), linestyle="label", legend=False)
             .scale(color=looks["color"], linestyle=looks["linestyle"])
         )
         plot.theme({}).on(axes).plot()

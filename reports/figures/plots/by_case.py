@@ -17,7 +17,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels, choose_metrics
-from mocapbench.reports.figures.plots.look import Styles, fit_axis, scales_of, wrap_text
+from mocapbench.reports.figures.plots.look import Styles, fit_axis, scale_mark, scales_of, wrap_text
 from mocapbench.reports.figures.styles import DrawingStyle
 
 __all__ = ["ByCase"]
@@ -57,9 +57,13 @@ class ByCase(Plot):
         plot = (
             objects.Plot(panel, x="case", y="mean", color="label", marker="label")
             .add(
-                objects.Range(linewidth=0.9), objects.Dodge(), ymin="low", ymax="high", legend=False
+                objects.Range(linewidth=scale_mark(0.9)),
+                objects.Dodge(),
+                ymin="low",
+                ymax="high",
+                legend=False,
             )
-            .add(objects.Dot(pointsize=3.5), objects.Dodge(), legend=False)
+            .add(objects.Dot(pointsize=scale_mark(3.5)), objects.Dodge(), legend=False)
             .scale(color=looks["color"], marker=looks["marker"])
         )
         plot.theme({}).on(axes).plot()

@@ -13,7 +13,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels
-from mocapbench.reports.figures.plots.look import Styles, scales_of
+from mocapbench.reports.figures.plots.look import Styles, scale_mark, scales_of
 from mocapbench.reports.figures.scores.reliability import coverage_curves
 
 __all__ = ["Calibration"]
@@ -44,7 +44,11 @@ class Calibration(Plot):
         axes.plot([low, 1.0], [low, 1.0], ":", color="#57606a", linewidth=0.8)
         plot = (
             objects.Plot(panel, x="nominal", y="coverage", color="label", marker="label")
-            .add(objects.Line(pointsize=3.5), linestyle="label", legend=False)
+            .add(
+                objects.Line(linewidth=scale_mark(1.2), pointsize=scale_mark(3.5)),
+                linestyle="label",
+                legend=False,
+            )
             .scale(**scales_of(panel["label"], styles))
         )
         plot.theme({}).on(axes).plot()

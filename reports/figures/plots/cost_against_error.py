@@ -12,7 +12,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels, choose_metrics
-from mocapbench.reports.figures.plots.look import Styles, fit_axis, scales_of
+from mocapbench.reports.figures.plots.look import Styles, fit_axis, scale_mark, scales_of
 from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.figures.scores.cost import front, median_seconds
 
@@ -44,7 +44,7 @@ class Cost(Plot):
         axes.plot(best["mean"], best["seconds"], color="#57606a", linewidth=0.8, zorder=0)
         plot = (
             objects.Plot(panel, x="mean", y="seconds", color="label", marker="label")
-            .add(objects.Dot(pointsize=5), legend=False)
+            .add(objects.Dot(pointsize=scale_mark(5)), legend=False)
             .scale(color=looks["color"], marker=looks["marker"])
         )
         plot.theme({}).on(axes).plot()

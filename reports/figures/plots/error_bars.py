@@ -17,7 +17,14 @@ from mocapbench.reports.export.means import columns_of
 from mocapbench.reports.export.selection import order_labels
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import choose_metrics
-from mocapbench.reports.figures.plots.look import NARROW, Styles, fit_axis, scales_of, wrap_text
+from mocapbench.reports.figures.plots.look import (
+    NARROW,
+    Styles,
+    fit_axis,
+    scale_mark,
+    scales_of,
+    wrap_text,
+)
 
 __all__ = ["ErrorBars"]
 
@@ -51,15 +58,15 @@ class ErrorBars(Plot):
         plot = (
             objects.Plot(panel, y="label", color="label", marker="label")
             .add(
-                objects.Range(linewidth=1.5, alpha=0.5),
+                objects.Range(linewidth=scale_mark(1.5), alpha=0.5),
                 data=means,
                 orient="y",
                 xmin="low",
                 xmax="high",
                 legend=False,
             )
-            .add(objects.Dots(pointsize=3.0, stroke=0.6), x="value", legend=False)
-            .add(objects.Dot(pointsize=5.0), data=means, x="mean", legend=False)
+            .add(objects.Dots(pointsize=scale_mark(3.0), stroke=0.6), x="value", legend=False)
+            .add(objects.Dot(pointsize=scale_mark(5.0)), data=means, x="mean", legend=False)
             .scale(color=looks["color"], marker=looks["marker"])
         )
         plot.theme({}).on(axes).plot()

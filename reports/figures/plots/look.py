@@ -31,6 +31,7 @@ __all__ = [
     "fit_legend",
     "legend_handles",
     "level_colours",
+    "scale_mark",
     "scales_of",
     "settings_of",
     "text_size",
@@ -141,6 +142,11 @@ def wrap_text(text: str, letters: int = _LINE) -> str:
 def text_size() -> float:
     """Return the size of text in points that matplotlib is set to."""
     return float(rcParams["font.size"])
+
+
+def scale_mark(size: float) -> float:
+    """Return a size of marks beside text of 8 points in proportion to the text that is set."""
+    return size * text_size() / 8.0
 
 
 def add_legend(figure: Figure, styles: Styles) -> None:

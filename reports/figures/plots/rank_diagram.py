@@ -15,7 +15,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import choose_metrics
-from mocapbench.reports.figures.plots.look import NARROW, Styles, scales_of, wrap_text
+from mocapbench.reports.figures.plots.look import NARROW, Styles, scale_mark, scales_of, wrap_text
 from mocapbench.reports.figures.scores.ranks import rank_labels
 
 __all__ = ["Ranks"]
@@ -50,7 +50,7 @@ class Ranks(Plot):
         looks = scales_of(panel["label"], styles)
         plot = (
             objects.Plot(panel, x="mean_rank", y="label", color="label", marker="label")
-            .add(objects.Dot(pointsize=5), legend=False)
+            .add(objects.Dot(pointsize=scale_mark(5)), legend=False)
             .scale(color=looks["color"], marker=looks["marker"])
         )
         plot.theme({}).on(axes).plot()
