@@ -83,7 +83,11 @@ class ErrorBars(Plot):
     def describe(self, table: pd.DataFrame) -> str:
         """Return what dots and bars are, and over how many."""
         most = table.sort_values("n", kind="stable").iloc[-1]
-        bars = ", bars their 95 % intervals by Student’s t" if table["low"].notna().any() else ""
+        bars = (
+            ", bars their 95 % intervals, cut where the axis ends"
+            if table["low"].notna().any()
+            else ""
+        )
         return (
             f"Large markers are means{bars}; small ones are single values, over "
             f"{format_count(int(most['n']), str(most['n_of']))} at most."
