@@ -17,6 +17,7 @@ from mocapbench.reports.figures.plots.look import EM, Styles, fit_legend, settin
 __all__ = ["FIGURE_FORMATS", "draw_figure", "render_figure"]
 
 FIGURE_FORMATS = ("pdf", "svg", "png")
+"""The formats of files in which a figure for a paper can be written."""
 """Formats of files of figures."""
 _WITHOUT_DATES: dict[str, dict[str, Any]] = {
     "pdf": {"CreationDate": None},
