@@ -18,7 +18,6 @@ __all__ = ["FIGURE_FORMATS", "draw_figure", "render_figure"]
 
 FIGURE_FORMATS = ("pdf", "svg", "png")
 """The formats of files in which a figure for a paper can be written."""
-"""Formats of files of figures."""
 _WITHOUT_DATES: dict[str, dict[str, Any]] = {
     "pdf": {"CreationDate": None},
     "svg": {"Date": None},
