@@ -16,8 +16,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
-import platformdirs
-
+from mocapbench.basics.cache import find_cache
 from mocapbench.datasets.acclaim.errors import AcclaimError
 from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.motion_reader import read_motion
@@ -111,8 +110,7 @@ class CMULibrary(Library):
     ) -> None:
         folder = data_dir or os.environ.get("MOCAPBENCH_DATA")
         super().__init__(Path(folder) if folder else None)
-        cache = cache_dir or os.environ.get("MOCAPBENCH_CACHE")
-        self.cache_dir: Path = Path(cache or platformdirs.user_cache_dir("mocapbench"))
+        self.cache_dir: Path = find_cache(cache_dir)
         self.digests: DigestRegistry = DigestRegistry(
             registered_digests() if known is None else known,
             self.cache_dir / "digests.tsv",

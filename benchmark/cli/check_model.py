@@ -14,6 +14,7 @@ from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.benchmark.messages import reason
+from mocapbench.benchmark.programs.entrants import locate_plugin
 from mocapbench.benchmark.runs.execution.child import ProcessDiedError, call_in_child
 from mocapbench.benchmark.testing import model_checks
 
@@ -57,7 +58,7 @@ def _load_models(files: list[Path]) -> list[str]:
         If there is none.
     """
     before = {*bench.MODELS.names()}
-    bench.load_plugins([path.resolve() for path in files])
+    bench.load_plugins([locate_plugin(path) for path in files])
     names = sorted({*bench.MODELS.names()} - before)
     if not names:
         listed = ", ".join(map(str, files))

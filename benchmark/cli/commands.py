@@ -25,6 +25,7 @@ COMMANDS = {
     "report": "Write the HTML report of a run, or of changes between two.",
     "motion": "Write the motion that a model made as GIF, AMC, BVH or CSV.",
     "check-model": "Check that your own models keep what their abilities promise.",
+    "models": "List models that are commands, and install what they need.",
     "check": "Check that no metric of a run is worse than its reference.",
     "compare": "Compare two runs, or two models of one run, by paired folds.",
     "power": "Say which difference how many people can show.",

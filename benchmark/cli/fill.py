@@ -115,7 +115,8 @@ def fill(
     shows them. Spikes, jumps, swaps and odd segments beside gaps are said, as in mocapbench
     inspect.
     """
-    console, plugins = LiteralConsole(), load_plugins(plugin)
+    named = [rule.rpartition("=")[2].strip() for rule in model.split(",")]
+    console, plugins = LiteralConsole(), load_plugins(plugin, named)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
     entries = filling.NamedEntries(
         _parse_frames(frames),

@@ -13,6 +13,7 @@ from mocapbench import benchmark as bench
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import is_writable
+from mocapbench.benchmark.programs.entrants import locate_plugin, select_entrants
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Record, RunDirectory, TaskFile
@@ -63,7 +64,7 @@ Plugins = Annotated[
         "--plugin",
         "--model-file",
         help="A Python file that defines any of MODELS, TASKS, METRICS, LIBRARIES and FORMATS, or "
-        "the TOML file of a model that is a command.",
+        "the TOML file of a model that is a command, or its name in `mocapbench models list`.",
     ),
 ]
 
@@ -86,9 +87,18 @@ def cases_named(texts: Sequence[str], tasks: Sequence[str]) -> tuple[str, ...]:
     return tuple(case for text in texts for case in bench.split_cases(text, names))
 
 
-def load_plugins(paths: Sequence[Path] | None) -> tuple[Path, ...]:
-    """Register what the user's own files define, and return their full paths."""
-    files = tuple(path.resolve() for path in paths or ())
+def load_plugins(paths: Sequence[Path] | None, models: Sequence[str] = ()) -> tuple[Path, ...]:
+    """Register what files define, and return their full paths.
+
+    Parameters
+    ----------
+    paths : sequence of Path or None
+        The user's own files, or names of commands of ours.
+    models : sequence of str, optional
+        Names of models, of which commands of ours are registered too.
+    """
+    named = [locate_plugin(path) for path in paths or ()]
+    files = tuple(dict.fromkeys([*named, *select_entrants(models)]))
     if files:  # what checks them takes long to import
         bench.load_plugins(files)
     return files

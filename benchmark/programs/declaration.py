@@ -11,12 +11,18 @@ from typing import Any, cast
 
 from mocapbench.baselines import ABILITIES, IMPLIED, FrameImputer, Interpolator
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.programs.entrants import name_plugin
+from mocapbench.benchmark.programs.environments import (
+    find_environment,
+    list_variables,
+    read_versions,
+)
 from mocapbench.benchmark.programs.exchange import EXCHANGES
 from mocapbench.benchmark.programs.model import CommandModel
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.values import is_count, is_path, is_text, read_names
 
-__all__ = ["define_model", "is_declaration", "list_files"]
+__all__ = ["define_model", "find_requirements", "is_declaration", "list_files", "read_declaration"]
 
 _ABILITIES = ("fills frames", "fills entries", "fills new recordings", "interpolates")
 """What a command may provide."""
@@ -24,7 +30,7 @@ _NEEDS = ("coordinates",)
 """What a command may need: nothing that `fit` receives besides recordings."""
 _KEYS = (
     *("name", "summary", "command", "files", "format", "provides", "needs", "learns_in_fit"),
-    *("max_frames", "environment", "licence", "source"),
+    *("max_frames", "environment", "licence", "source", "requirements"),
 )
 
 
@@ -41,24 +47,42 @@ def define_model(path: Path) -> tuple[str, type[CommandModel]]:
     UsageError
         If the file is not as expected; the message has line and key.
     """
-    document = _read_document(path)
+    document = read_declaration(path)
     document.require_known("", _KEYS)
     name: str = document.read("name", "", is_text, "a name", '"my-model"')
     command = _read_texts(document, "command", '["python3", "my_model.py"]')
     if not (name and command):
         missing = "command" if name else "name"
         raise document.error(missing, "a value", "none", 'write name = "…" and command = ["…"]')
+    variables, versions = _find_packages(path)
     content = {
         "command": command,
         "folder": path.resolve().parent,
         "exchange": document.read(
             "format", "npz", EXCHANGES.__contains__, f"one of {', '.join(EXCHANGES)}", '"npz"'
         ),
-        "files_digest": _digest_files([path, *list_files(path)]),
+        "files_digest": _digest_contents([path, *list_files(path)], versions),
+        "variables": variables,
         "__doc__": _describe(document, command),
         **_read_abilities(document),
     }
     return name, _register_class(name, content)
+
+
+def read_declaration(path: Path) -> Document:
+    """Return what the TOML file of a command says.
+
+    Raises
+    ------
+    UsageError
+        If it is not there, or no text.
+    """
+    try:
+        return Document(str(path), path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(
+            f"--plugin: expected a TOML file of a command, got {str(path)!r}: {error}; check it"
+        ) from error
 
 
 def list_files(path: Path) -> list[Path]:
@@ -69,23 +93,51 @@ def list_files(path: Path) -> list[Path]:
     UsageError
         If one is not there, or stands elsewhere.
     """
-    document = _read_document(path)
-    names = _read_texts(document, "files", '["my_model.py"]')
-    files = [path.resolve().parent / name for name in names]
-    for name, file in zip(names, files, strict=True):
-        if not (is_path(name) and file.is_file()):
-            raise document.error(
-                "files", "files beside the TOML file, or below", repr(name), "correct the path"
-            )
-    return files
+    document = read_declaration(path)
+    named = [("files", name) for name in _read_texts(document, "files", '["my_model.py"]')]
+    if requirements := document.read("requirements", "", is_text, "a file", '"requirements.txt"'):
+        named.append(("requirements", requirements))
+    return [_find_beside(document, path, key, name) for key, name in named]
 
 
-def _read_document(path: Path) -> Document:
+def find_requirements(path: Path) -> Path | None:
+    """Return the file of packages that a command needs; None if its TOML file names none.
+
+    Raises
+    ------
+    UsageError
+        See `list_files`.
+    """
+    return list_files(path)[-1] if read_declaration(path).get("requirements") else None
+
+
+def _find_beside(document: Document, path: Path, key: str, name: str) -> Path:
+    file = path.resolve().parent / name
+    if not (is_path(name) and file.is_file()):
+        raise document.error(
+            key, "files beside the TOML file, or below", repr(name), "correct the path"
+        )
+    return file
+
+
+def _find_packages(path: Path) -> tuple[Mapping[str, str], str]:
+    """Return the variables with which a command finds its packages, and their versions.
+
+    Raises
+    ------
+    UsageError
+        If it needs some that are not installed.
+    """
+    requirements = find_requirements(path)
+    if requirements is None:
+        return {}, ""
+    environment = find_environment(requirements)
     try:
-        return Document(str(path), path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
+        return list_variables(environment), read_versions(environment)
+    except FileNotFoundError as error:
         raise UsageError(
-            f"--plugin: expected a TOML file of a command, got {str(path)!r}: {error}; check it"
+            f"{path}: expected the packages of {requirements.name} in an environment of their own, "
+            f"got none; run `mocapbench models install {name_plugin(path)}`"
         ) from error
 
 
@@ -137,8 +189,8 @@ def _describe(document: Document, command: tuple[str, ...]) -> str:
     return f"{sentence}{f' ({facts})' if facts else ''}.{paper}"
 
 
-def _digest_files(paths: list[Path]) -> str:
-    digest = hashlib.sha256()
+def _digest_contents(paths: list[Path], versions: str) -> str:
+    digest = hashlib.sha256(versions.encode())
     for path in paths:
         digest.update(hashlib.sha256(path.read_bytes()).digest())
     return digest.hexdigest()

@@ -54,6 +54,8 @@ class CommandModel(FrameImputer):
     """Where it runs: the folder of its TOML file."""
     exchange: ClassVar[str]
     """The name of one of `EXCHANGES`."""
+    variables: ClassVar[Mapping[str, str]] = {}
+    """Of its environment: those with which it finds its packages."""
 
     def __init__(self, random_state: int = 0) -> None:
         self.random_state = random_state
@@ -133,7 +135,8 @@ class CommandModel(FrameImputer):
 
     def _run(self, step: str, folder: Path) -> str:
         """Have the program do one step in a folder of files, and return what it said."""
-        words, variables = (*self.command, step), {SEED: str(self.random_state)}
+        words = (*self.command, step)
+        variables = {**self.variables, SEED: str(self.random_state)}
         return run_program(words, folder, self.folder, variables)
 
     def _read(self, path: Path, said: str) -> NamedArrays:

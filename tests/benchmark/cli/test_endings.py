@@ -33,6 +33,7 @@ GIVEN = {
     "report": ("report", "--out", "run"),
     "motion": ("motion", "--help"),
     "check-model": ("check-model", "--help"),
+    "models": ("models", "list"),
     "check": ("check", "run", "--reference", "reference.csv"),
     "compare": ("compare", "run", "--models", "trivial,linear"),
     "power": ("power", "run"),
@@ -49,7 +50,8 @@ GIVEN = {
     "wrong option": ("list", "--nonsense"),
 }
 """Each command, given such that it prints something and ends well."""
-AT_ONCE = ("init", "motion", "check-model", "list", "info", "help", "version", "wrong option")
+AT_ONCE = ("init", "motion", "check-model", "models", "list", "info")
+AT_ONCE = (*AT_ONCE, "help", "version", "wrong option")
 """Those that take a second or less."""
 every_command = pytest.mark.parametrize(
     "arguments",
