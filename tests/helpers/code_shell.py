@@ -5,7 +5,8 @@ In blocks of `sh`, a command shows what can be written, and is tried as follows.
 ==================  ==============================================================================
 mocapbench run      as a dry run of one fold, and of one task unless it names tasks or cases
 mocapbench fill     by `linear`, unless it names a model
-… data fetch        is parsed by the command line's own parser, since it needs a network
+… data fetch        is parsed by the command line's own parser, since it needs a network; so
+                    is `models install`
 … --OPTION          is an option of the command line
 other mocapbench    runs as it stands, and ends with exit code 0
 pip install         names packages, and extras that we have

@@ -1,0 +1,124 @@
+"""Add to lines across gaps what a small transformer has learnt of the difference.
+
+Its tokens are frames: values with lines where they are hidden, which these are, and how far the
+next visible one is. It predicts the difference from the lines and its standard deviation, in
+training by the log-likelihood that M. Seitzer et al. (2022) weigh by the predicted deviation.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from recordings import fill_recordings, hide_gaps, interpolate_lines, load_windows
+from torch import Tensor, nn
+from training import load_network, save_network, seed_everything, train_network
+
+__all__ = ["Transformer"]
+
+_LONGEST, _BATCH, _RATE = 96, 8, 5e-4
+"""Frames of a window, windows of a batch, and the rate of learning."""
+_SIZE, _HEADS, _LAYERS, _DROPOUT = 128, 8, 4, 0.1
+_LEAST, _MOST = -7.0, 3.0
+"""Logarithms of standard deviations, of scaled values."""
+
+
+class Transformer(nn.Module):
+    """Four layers over frames.
+
+    Parameters
+    ----------
+    n_channels : int
+    """
+
+    def __init__(self, n_channels: int) -> None:
+        super().__init__()
+        self.read = nn.Linear(3 * n_channels, _SIZE)
+        layer = nn.TransformerEncoderLayer(
+            _SIZE, _HEADS, 4 * _SIZE, _DROPOUT, "gelu", batch_first=True, norm_first=True
+        )
+        self.layers = nn.TransformerEncoder(layer, _LAYERS, enable_nested_tensor=False)
+        self.write = nn.Linear(_SIZE, 2 * n_channels)
+        nn.init.zeros_(self.write.weight)  # it begins with the lines
+        nn.init.zeros_(self.write.bias)
+
+    def forward(self, lines: Tensor, hidden: Tensor, away: Tensor) -> tuple[Tensor, Tensor]:
+        """Return the mean, and the logarithm of the standard deviation, of every entry."""
+        frames = self.read(torch.cat([lines, hidden, away], dim=-1))
+        frames = self.layers(frames + _encode_positions(lines.shape[1]))
+        difference, log_deviation = self.write(frames).chunk(2, dim=-1)
+        return lines + difference, log_deviation.clamp(_LEAST, _MOST)
+
+
+def _encode_positions(length: int) -> Tensor:
+    angles = torch.arange(length)[:, None] * torch.exp(
+        torch.arange(0, _SIZE, 2) * (-math.log(10_000.0) / _SIZE)
+    )
+    return torch.stack([angles.sin(), angles.cos()], dim=-1).reshape(length, _SIZE)
+
+
+Batch = tuple[Tensor, Tensor, Tensor, Tensor]
+"""Lines, which entries are hidden, how far they are from visible ones, and the truth."""
+
+
+def _make_batch(windows: NDArray[np.float64], gaps: NDArray[np.bool_]) -> Batch:
+    """Return windows with gaps; entries that nobody knows are hidden, and have no truth."""
+    given = np.where(gaps, np.nan, windows)
+    lines, away = interpolate_lines(given)
+    arrays = (lines, ~np.isfinite(given), away, windows)
+    lines, hidden, away, truth = (torch.tensor(array, dtype=torch.float32) for array in arrays)
+    return lines, hidden, away, truth
+
+
+def _score_batch(network: nn.Module, batch: Batch) -> Tensor:
+    *inputs, truth = batch
+    mean, log_deviation = network(*inputs)
+    asked = (inputs[1] > 0) & truth.isfinite()
+    mean, log_deviation, truth = mean[asked], log_deviation[asked], truth[asked]
+    deviation = log_deviation.exp()
+    unlikely = 0.5 * ((truth - mean) / deviation) ** 2 + log_deviation
+    return (unlikely * deviation.detach()).sum() / max(1, asked.sum())
+
+
+def _learn(folder: Path) -> None:
+    rng = seed_everything()
+    training, held_out, parts = load_windows(folder, _LONGEST, rng)
+
+    def draw() -> Batch:
+        windows = training[rng.integers(0, len(training), _BATCH)]
+        return _make_batch(windows, hide_gaps(windows.shape, parts, rng))
+
+    kept = [
+        _make_batch(held_out[k : k + _BATCH], hide_gaps(held_out[k : k + _BATCH].shape, parts, rng))
+        for _ in range(2)
+        for k in range(0, len(held_out), _BATCH)
+    ]
+    network = Transformer(training.shape[2])
+    train_network(network, lambda batch: _score_batch(network, batch), draw, kept, _RATE)
+    save_network(network, folder)
+
+
+def _fill(folder: Path) -> None:
+    seed_everything()
+    with np.load(folder / "model" / "scale.npz") as scale:
+        network = Transformer(len(scale["centre"]))
+    load_network(network, folder)
+
+    @torch.no_grad()
+    def fill(windows: NDArray[np.float64]) -> Mapping[str, NDArray[np.float64]]:
+        *inputs, _ = _make_batch(windows, np.zeros(windows.shape, dtype=bool))
+        mean, log_deviation = network(*inputs)
+        return {"mean": mean.double().numpy(), "std": log_deviation.exp().double().numpy()}
+
+    fill_recordings(folder, fill)
+
+
+STEPS: Mapping[str, Callable[[Path], None]] = {"fit": _learn, "fill": _fill}
+
+if __name__ == "__main__":
+    STEPS[sys.argv[1]](Path(sys.argv[2]))
