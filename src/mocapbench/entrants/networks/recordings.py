@@ -27,8 +27,8 @@ _HELD_OUT = 5
 """One recording of so many is held out, at least one; of a single one, the end."""
 _LONGEST_GAP = 0.6
 """Of a window, what a gap that is drawn hides at the most."""
-_WHOLE = 1 / 3
-"""How often a gap that is drawn hides all channels."""
+_WHOLE, _MOST_GAPS = 1 / 4, 3
+"""How often a gap that is drawn hides all channels, and how many a window has at the most."""
 
 
 def load_windows(
@@ -101,13 +101,13 @@ def _list_starts(values: Values, length: int, step: int) -> list[int]:
 def hide_gaps(
     shape: tuple[int, ...], parts: Sequence[NDArray[np.intp]], rng: np.random.Generator
 ) -> NDArray[np.bool_]:
-    """Return a gap in each window: of all channels, or of parts that are listed side by side.
+    """Return gaps in each window: of all channels, or of parts that are listed side by side.
 
     So are the joints of a limb.
     """
     n_windows, length, _ = shape
     hidden = np.zeros(shape, dtype=bool)
-    for window in range(n_windows):
+    for window in np.repeat(range(n_windows), rng.integers(1, _MOST_GAPS + 1, n_windows)):
         n_frames = rng.integers(1, max(2, int(_LONGEST_GAP * length)))
         begin = rng.integers(0, length - n_frames + 1)
         most = len(parts) if rng.random() < _WHOLE else rng.integers(1, len(parts) // 2 + 2)

@@ -24,7 +24,7 @@ _SHARE, _OF_CLOCK = 0.5, 0.8
 
 On a machine that has a core for it the first are spent first, or neither.
 """
-_MOST_STEPS, _EVERY, _PATIENCE = 4_000, 25, 8
+_MOST_STEPS, _EVERY, _PATIENCE = 4_000, 25, 6
 """Steps at the most; after how many held-out windows are looked at; and how often in vain."""
 _WARM_UP = 50
 """Steps in which the rate of learning grows."""
@@ -84,7 +84,7 @@ def train_network(
     rate : float
         Of learning.
     """
-    optimizer = torch.optim.AdamW(network.parameters(), lr=rate)
+    optimizer = torch.optim.AdamW(network.parameters(), lr=rate, weight_decay=0.1)
     warm_up = torch.optim.lr_scheduler.LambdaLR(optimizer, lambda k: min(1.0, (k + 1) / _WARM_UP))
     best, least, in_vain = copy.deepcopy(network.state_dict()), np.inf, 0
     with limit_time():
