@@ -30,7 +30,7 @@ from .inspection.left_out import left_out_lines
 from .inspection.output import explanation_table, state_lines, state_table
 from .inspection.recordings import data_totals, next_data_step
 from .inspection.state import RunState, run_state
-from .leaderboard.entrants import describe_entrants, unite_submissions
+from .leaderboard.side_by_side import describe_entrants, unite_submissions
 from .leaderboard.submission import read_models, read_submission, write_submission
 from .merging.merge import merge
 from .missing_values import choose_missing_rule
