@@ -29,7 +29,7 @@ def submit(
     ] = None,
     to: Annotated[Path, typer.Option(help="The archive to write.")] = Path("submission.zip"),
 ) -> None:
-    """Write the records of a run as an archive that others can put on a leaderboard.
+    """Write the records of a run as an archive for a leaderboard.
 
     It has scores, versions, the machine and digests of recordings; neither recordings nor
     predictions.

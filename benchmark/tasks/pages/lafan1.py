@@ -24,10 +24,10 @@ PAGE = TaskPage(
     illustrated=("30 frames", "synthetic 15 frames"),
     figures=(draw_filled_motion,),
     remarks=(
-        "Nobody who made this task has run it on the real file, which its licence lets only those "
-        "have who get it from its authors. On a generated file of the same structure zero-velocity "
-        "has the scores of the authors’ code to five digits. Where it does not have the published "
-        "values on the real one, the task is wrong: please say so.",
+        "Nobody who made this task has run it on the real file. If zero-velocity does not have the "
+        "published values there, the task is wrong: please say so.",
+        "On a generated file of the same structure zero-velocity has the scores of the authors’ "
+        "code to five digits.",
         "Windows of 65 frames begin every 40, so that they overlap, and all are of one person: "
         "there is one unit of statistics, and no test between models.",
         "L2P divides coordinates by standard deviations in windows of 50 frames, every 20, of "

@@ -26,9 +26,10 @@ PAGE = TaskPage(
     illustrated=("9 markers", "synthetic 3 markers"),
     figures=(draw_longest_gaps,),
     remarks=(
-        "The paper’s method had frames 250 to 649 of the recording as a reference. Of these, 200 "
-        "are tested, so that it was shown part of the truth. Models here learn from frames 450 to "
-        "849, 1050 to 1449 and 1450 to 1849, and from what is visible.",
+        "The paper’s method had frames 250 to 649 as a reference. Of these, 200 are tested, so "
+        "that it was shown part of the truth.",
+        "Models here learn from frames 450 to 849, 1050 to 1449 and 1450 to 1849, and from what is "
+        "visible.",
         "A published value is the mean of 50 errors that the authors’ repository prints, one for "
         "each mask.",
         "All masks of a case are on one recording of one person: intervals are over masks, and say "

@@ -121,6 +121,7 @@ def test_the_table_is_read_back_from_its_file(whole, kind, tmp_path):
             tmp_path / f"{name}.csv",
             keep_default_na=False,
             na_values={column: [""] for column in table.select_dtypes("number")},
+            float_precision="round_trip",
         )
         assert [*again] == [*table]
         for column in table.select_dtypes("number"):
