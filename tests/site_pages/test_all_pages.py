@@ -68,7 +68,7 @@ def test_missing_recordings_are_said(texts):
         name
         for name in TASKS.names()
         if any(
-            uri.startswith(("cmu:", "rotations:"))
+            uri.startswith(("cmu:", "lafan1:", "rotations:"))
             for case in TASKS.get(name).cases
             for uri in case.recordings
         )
