@@ -23,6 +23,8 @@ __all__ = ["app"]
 
 app = typer.Typer(add_completion=False)
 
+_PAGES = ("index.html", "report.html", "scores.csv")
+
 
 @app.command()
 def leaderboard(
@@ -36,24 +38,37 @@ def leaderboard(
     Everything is checked first: if two archives have different scores of one job or different
     recordings, or one is of another version of a task, nothing is written.
     """
-    names = [archive.name for archive in archives]
-    if len({*names}) < len(names):
-        raise UsageError(f"expected archives of different names, got {', '.join(names)}")
+    _require_site(out)
+    if len({path.resolve() for path in archives}) < len(archives):
+        raise UsageError(f"expected each archive once, got {', '.join(map(str, archives))}")
     with scratch_folder() as folder:
         submissions = {
-            path.name: bench.read_submission(path, folder / path.name) for path in archives
+            str(path): bench.read_submission(path, folder / f"{number}")
+            for number, path in enumerate(archives, start=1)
         }
         united = bench.unite_submissions(submissions)
         entrants = bench.describe_entrants(submissions, united)
         records = [record for of_archive in united.values() for record in of_archive]
     if not any(record.scores for record in records):
         raise UsageError("expected scores, got none in any archive; have others sent")
-    page = reports.render_leaderboard(entrants, _tabulate(records), names)
-    _write_pages(out, page, records, f"{len(names)} submissions")
+    names = [path.name for path in archives]
+    _write_pages(out, reports.render_leaderboard(entrants, _tabulate(records), names), records)
     LiteralConsole().print(
         f"{format_count(len(entrants), 'entrant')}: {(out / 'index.html').resolve()}",
         soft_wrap=True,
     )
+
+
+def _require_site(out: Path) -> None:
+    """Refuse what is no folder, and one with files of anything else, such as a run directory."""
+    if out.exists() and not out.is_dir():
+        raise UsageError(f"--out: expected a folder, got the file {out}; name another folder")
+    others = sorted({path.name for path in out.iterdir()} - {*_PAGES}) if out.exists() else []
+    if others:
+        raise UsageError(
+            f"--out: expected a new or empty folder, or a site, got {out} with {others[0]}; name "
+            "another folder"
+        )
 
 
 def _tabulate(records: Sequence[Record]) -> list[reports.Table]:
@@ -63,11 +78,11 @@ def _tabulate(records: Sequence[Record]) -> list[reports.Table]:
     return list(reports.paper_tables(whole, tasks, (), bench.find_labels(whole, ()), ())[1])
 
 
-def _write_pages(out: Path, page: str, records: Sequence[Record], of: str) -> None:
+def _write_pages(out: Path, page: str, records: Sequence[Record]) -> None:
     """Write all files of the site, or none."""
-    whole = bench.bundle(records, {"merged from": of})
+    whole = bench.bundle(records, {})
+    contents = page, reports.render(whole), reports.csv_text(whole.scores)
     out.mkdir(parents=True, exist_ok=True)
     with write_together(out, "site") as drafts:
-        write_text(drafts / "index.html", page)
-        write_text(drafts / "report.html", reports.render(whole))
-        write_text(drafts / "scores.csv", reports.csv_text(whole.scores))
+        for name, content in zip(_PAGES, contents, strict=True):
+            write_text(drafts / name, content)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench.basics.words import format_count
+from mocapbench.basics.words import format_count, printable
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DEFAULT_OUT, require_writable, show_left_out
 from mocapbench.benchmark.errors import UsageError
@@ -16,6 +16,8 @@ from mocapbench.benchmark.errors import UsageError
 __all__ = ["app"]
 
 app = typer.Typer(add_completion=False)
+
+_LONGEST = 100
 
 
 @app.command()
@@ -36,6 +38,8 @@ def submit(
     """
     if not by.strip():
         raise UsageError('--by: expected who ran it, got nothing; add --by "Your laboratory"')
+    if len(by) > _LONGEST or printable(by) != by:
+        raise UsageError(f"--by: expected at most {_LONGEST} printable letters, got {by!r}")
     if to.exists():
         raise UsageError(f"--to: expected no file called {to}; name another, or delete it")
     require_writable(to)
@@ -46,4 +50,9 @@ def submit(
         "command line of the run and the names of its recordings",
         soft_wrap=True,
     )
+    if lacking := len(store.load_plan()["keys"]) - n_records:
+        console.print(
+            f"without a record: {format_count(lacking, 'job')}; `mocapbench run` computes them",
+            soft_wrap=True,
+        )
     show_left_out(store.damaged, console)

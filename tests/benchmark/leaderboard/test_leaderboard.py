@@ -3,7 +3,7 @@
 import json
 import shutil
 from dataclasses import replace
-from zipfile import ZIP_STORED, ZipFile
+from zipfile import ZIP_BZIP2, ZIP_LZMA, ZIP_STORED, ZipFile
 
 import pytest
 
@@ -43,7 +43,7 @@ def unite(tmp_path):
         folder = tmp_path / "unpacked"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
-        submissions = {path.name: read_submission(path, folder / path.name) for path in paths}
+        submissions = {path.name: read_submission(path, folder / path.stem) for path in paths}
         return submissions, bench.unite_submissions(submissions)
 
     return unite
@@ -95,12 +95,12 @@ def test_other_results_of_one_row_are_named_after_their_sender(send, unite):
 
 def test_one_sender_has_one_result_of_a_row(send, unite):
     archives = [send(name, parts=parts, by="us") for name, parts in VERSIONS.items()]
-    with pytest.raises(UsageError, match=r"expected one result of .* also by this sender"):
+    with pytest.raises(UsageError, match=r"c\.zip: expected one result of x .* another --by"):
         unite(*archives, send("c", parts={"version of numpy": "2.2"}, by="us"))
 
 
 def test_different_scores_of_one_job_are_refused(send, unite):
-    with pytest.raises(UsageError, match="expected equal scores"):
+    with pytest.raises(UsageError, match=r"expected one score .* 6\.0 in a\.zip, 7\.0 in b\.zip"):
         unite(send("a"), send("b", scores={ROWS[0]: 7.0}))
 
 
@@ -126,10 +126,11 @@ def test_other_recordings_of_one_name_are_refused(send, unite):
 
 
 def test_a_task_that_is_not_here_or_of_another_version_is_refused(send, unite, monkeypatch):
-    with pytest.raises(UsageError, match=r"b\.zip: unknown task 't'.*this version"):
-        unite(send("b", [("t", "c", "x", 0)]))
     with pytest.raises(UsageError, match=r"c\.zip: unknown case of toy-interpolation-1 'c'"):
         unite(send("c", [(TASK, "c", "x", 0)]))
+    monkeypatch.setattr(submission, "_require_shared_tasks", lambda plan, records: None)
+    with pytest.raises(UsageError, match=r"b\.zip: unknown task 't'.*this version"):
+        unite(send("b", [("t", "c", "x", 0)]))
     path = send("a")
     monkeypatch.setitem(TASKS._added, TASK, replace(TASKS.get(TASK), version=2))
     with pytest.raises(UsageError, match="expected version 2 of"):
@@ -147,18 +148,72 @@ def test_entrants_have_what_their_senders_say_of_them(send, unite, tmp_path):
     failed = {ROWS[0]: bench.Status.FAILED}
     path = send("a", models=read_models(file), statuses=failed)
     x, y = bench.describe_entrants(*unite(path))
-    assert (x["label"], x["jobs"], x["failed"], x["paper"]) == ("x", 3, 1, "")
-    assert (y["label"], y["jobs"], y["failed"], y["by"]) == ("y", 4, 0, "Lab a")
+    assert (x["label"], x["jobs"], x["lacking"], x["paper"]) == ("x", 3, 1, "")
+    assert (y["label"], y["jobs"], y["lacking"], y["by"]) == ("y", 4, 0, "Lab a")
     assert (y["paper"], y["code"], y["licence"]) == ("Ours", "https://example.org/y", "MIT")
 
 
 @pytest.mark.parametrize(
-    "text", ['[y]\ncode = "javascript:alert(1)"', "[y]\nprice = 3\ncode = 3", "y = 1", "y", "\0"]
+    "text",
+    [
+        '[y]\ncode = "javascript:alert(1)"',
+        '[y]\ncod = "x"',
+        "[y]\ncode = 3",
+        "y = 1",
+        "y",
+        "\0",
+        None,
+    ],
 )
 def test_a_file_that_says_anything_else_of_models_is_refused(tmp_path, text):
-    (tmp_path / "models.toml").write_text(text)
-    with pytest.raises((UsageError, ValueError)):
-        read_models(tmp_path / "models.toml")
+    file = tmp_path / "models.toml"
+    if text is not None:
+        file.write_text(text)
+    with pytest.raises(UsageError, match=r"models\.toml: expected a table"):
+        read_models(file)
+
+
+def test_other_seeds_are_refused(send, unite):
+    other = _change(send("b", parts=VERSIONS["b"]), _in_records({"seed": 1}))
+    with pytest.raises(UsageError, match=r"two of the seed: 0 in a\.zip, 1 in b\.zip"):
+        unite(send("a"), other)
+
+
+def test_other_problems_are_refused(send, unite):
+    archives = [
+        _change(send(name, parts=parts), _in_records({"problem": f"2:of {name}"}))
+        for name, parts in VERSIONS.items()
+    ]
+    with pytest.raises(UsageError, match=r"b\.zip: expected the problem of"):
+        unite(*archives)
+
+
+def test_other_folds_of_one_name_are_another_entrant(send, unite):
+    folds = [[row for row in ROWS if row[3] == fold] for fold in (0, 1)]
+    _, united = unite(send("a", folds[0]), send("b", folds[1]))
+    assert _labels(united) == [["x", "y"], ["x (Lab b)", "y (Lab b)"]]
+
+
+@pytest.mark.parametrize("names", ["ab", "ba"])
+def test_of_a_job_that_went_well_once_the_good_record_counts(send, unite, names):
+    failed = {"a": {ROWS[0]: bench.Status.FAILED}, "b": {}}
+    _, united = unite(*(send(name, statuses=failed[name]) for name in names))
+    assert all(record.scores for records in united.values() for record in records)
+    assert sum(map(len, united.values())) == len(ROWS)
+
+
+@pytest.mark.parametrize(
+    ("document", "said"),
+    [
+        ({"scores": {"mse": -1.0}}, "expected mse of"),
+        ({"scores": {"coverage_95": 7.0}}, "from -1e-09 to 1, got 7"),
+        ({"scores": {"mse": 1e308}}, "got 1e"),
+        ({"status": "failed"}, "expected no score of"),
+    ],
+)
+def test_scores_that_cannot_be_are_refused(send, unite, document, said):
+    with pytest.raises(UsageError, match=said):
+        unite(_change(send("a"), _in_records(document)))
 
 
 def _rename(old, new):
@@ -193,6 +248,9 @@ def _first_record(contents):
         (_set("about.json", b'{"format": 1, "by": ""}'), "by"),
         (_set("about.json", b'{"format": 2, "by": "x"}'), "format"),
         (_set("about.json", b'{"format": 1, "by": "x", "link": "javascript:x"}'), "link"),
+        (_set("about.json", b'{"format": 1, "by": "\\u202ex"}'), "plain text"),
+        (_set("about.json", b'{"format": 1, "by": "x ", "models": {}}'), "plain text"),
+        (_in_records({"fold": None}), "expected the record of"),
         (_set("about.json", b"[" * 10**6), "expected"),
         (_set("plan.json", b"null"), "plan"),
         (lambda contents: contents.update({_first_record(contents): b"{}"}), "record"),
@@ -215,11 +273,32 @@ def test_what_is_no_archive_is_refused(send, unite, content):
     with pytest.raises(UsageError, match=f"{path.name}: expected an archive"):
         unite(path)
     path.unlink()
-    with pytest.raises(UsageError, match="No such file"):
+    with pytest.raises(UsageError, match="got no file"):
         unite(path)
 
 
-@pytest.mark.parametrize("name", ["_MOST_FILES", "_MOST_BYTES"])
+@pytest.mark.parametrize("method", [ZIP_BZIP2, ZIP_LZMA])
+def test_another_method_is_refused(send, unite, method):
+    path = send("a")
+    with ZipFile(path) as archive:
+        contents = {name: archive.read(name) for name in archive.namelist()}
+    with ZipFile(path, "w", method) as archive:
+        for name, content in contents.items():
+            archive.writestr(name, content)
+    with pytest.raises(UsageError, match="another method"):
+        unite(path)
+
+
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+def test_a_file_twice_is_refused(send, unite):
+    path = send("a")
+    with ZipFile(path, "a") as archive:
+        archive.writestr("about.json", archive.read("about.json"))
+    with pytest.raises(UsageError, match=r"two files called about\.json"):
+        unite(path)
+
+
+@pytest.mark.parametrize("name", ["_MOST_FILES", "_MOST_BYTES", "_LARGEST"])
 def test_an_archive_that_unpacks_to_too_much_is_refused_before_it_is(
     send, unite, monkeypatch, name
 ):
@@ -248,7 +327,7 @@ def test_commands_write_an_archive_and_a_site(cli, write_run, tmp_path):
 def test_nothing_is_written_of_archives_that_contradict_each_other(cli, send, tmp_path):
     one, other = send("a"), send("b", scores={ROWS[0]: 7.0})
     assert cli("leaderboard", one, other, "--out", tmp_path / "site") == 2
-    assert "expected equal scores" in cli.printed
+    assert "expected one score" in cli.printed
     assert not (tmp_path / "site").exists()
 
 
@@ -264,16 +343,38 @@ def names(write_run, tmp_path, monkeypatch):
     [
         (("submit", "{run}"), "expected who ran it"),
         (("submit", "{run}", "--by", "  "), "expected who ran it"),
-        (("submit", "{run}", "--by", "us", "--link", "example.org"), "link"),
+        (("submit", "{run}", "--by", "us", "--link", "example.org"), "as link an address"),
+        (("submit", "{run}", "--by", "x" * 101), "at most 100"),
         (("submit", "{nothing}", "--by", "us"), "is not a mocapbench run"),
-        (("leaderboard", "{nothing}"), "No such file"),
-        (("leaderboard", "{run}"), "expected an archive"),
+        (("leaderboard", "{nothing}"), "got no file"),
+        (("leaderboard", "{run}"), "got no file"),
+        (("leaderboard", "{nothing}", "{nothing}"), "each archive once"),
+        (("leaderboard", "{nothing}", "--out", "{run}"), "or a site"),
+        (("leaderboard", "{nothing}", "--out", "{run}/plan.json"), "got the file"),
     ],
 )
 def test_wrong_arguments_are_refused(cli, names, tmp_path, arguments, said):
     assert cli(*(word.format(**names) for word in arguments)) == 2
     assert said in cli.printed
     assert {*tmp_path.iterdir()} == {tmp_path / "a"}
+
+
+def test_a_label_that_the_run_lacks_is_refused(cli, names, tmp_path):
+    (tmp_path / "models.toml").write_text('[z]\npaper = "Ours"\n')
+    assert cli("submit", names["run"], "--by", "us", "--models", tmp_path / "models.toml") == 2
+    assert "unknown model 'z'" in cli.printed
+
+
+def test_jobs_without_a_record_are_told(cli, write_run, tmp_path):
+    run = write_run(tmp_path / "a", ROWS, left=ROWS[:3])
+    assert cli("submit", run, "--by", "us", "--to", tmp_path / "a.zip") == 0
+    assert "without a record: 3 jobs; `mocapbench run` computes them" in cli.printed
+
+
+def test_tasks_that_nobody_else_has_cannot_be_sent(cli, write_run, tmp_path):
+    run = write_run(tmp_path / "a", [("t", "c", "x", 0)])
+    assert cli("submit", run, "--by", "us", "--to", tmp_path / "a.zip") == 2
+    assert "expected tasks that mocapbench brings along, got t" in cli.printed
 
 
 def test_a_run_on_recordings_of_ones_own_cannot_be_sent(cli, write_run, tmp_path):
