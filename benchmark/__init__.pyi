@@ -46,7 +46,7 @@ from .problems.unit import Unit
 from .recording_checks.reading import Reading
 from .registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
 from .results.bundle import bundle
-from .results.drawn import last_drawn, stamp
+from .results.drawn import last_drawn, mark_drawn, stamp
 from .results.error_parts import error_parts
 from .results.finished import describe_basis, finished_records
 from .results.frames import job_table, score_table
@@ -164,6 +164,7 @@ __all__ = [
     "list_unmet_needs",
     "load_plugin",
     "load_plugins",
+    "mark_drawn",
     "memory_share",
     "merge",
     "metric_entry",

@@ -13,7 +13,7 @@ from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.runs.source_code.folders import folders_digest
 from mocapbench.benchmark.task_files.task_file import TaskFile
 
-__all__ = ["digest_code", "last_drawn", "stamp"]
+__all__ = ["digest_code", "last_drawn", "mark_drawn", "stamp"]
 
 _PARTS = ("basics", "datasets", "metrics", "baselines", "reports", "benchmark")
 
@@ -45,11 +45,20 @@ def digest_code() -> str:
     return folders_digest(_PARTS)
 
 
+def mark_drawn(stamp: str, page: Path) -> str:
+    """Return what the plan keeps of a report: its stamp, and a digest of the page."""
+    return f"{stamp} {hashlib.sha256(page.read_bytes()).hexdigest()}"
+
+
 def last_drawn(store: RunDirectory, keys: Sequence[str]) -> str:
-    """Return the stamp of the report there; an empty string unless the last run had these jobs."""
+    """Return the stamp of the report there; an empty string unless the last run had these jobs.
+
+    It is empty, too, if somebody has changed the page since.
+    """
     try:
         plan = store.load_plan()
     except UsageError:  # no run got so far
         return ""
-    there = plan["keys"] == list(keys) and (store.path / "report.html").is_file()
-    return str(plan.get("drawn", "")) if there else ""
+    page, (stamp, _, _) = store.path / "report.html", str(plan.get("drawn", "")).partition(" ")
+    there = plan["keys"] == list(keys) and page.is_file()
+    return stamp if there and mark_drawn(stamp, page) == plan.get("drawn") else ""

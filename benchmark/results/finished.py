@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import REGISTRIES
-from mocapbench.benchmark.results.drawn import digest_code, stamp
+from mocapbench.benchmark.results.drawn import digest_code, last_drawn, stamp
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.posed import PosedProblems
 from mocapbench.benchmark.runs.record import Record, Status
@@ -30,6 +30,8 @@ _LIBRARIES = ("numpy", "scipy", "scikit-learn")
 def describe_basis(asked: Sequence[Any], digests: Mapping[str, str]) -> dict[str, Any]:
     """Return what a plan follows from, for `finished_records` of a later run.
 
+    Of code of others nothing tells which files it reads: with it there, a plan follows from more.
+
     Parameters
     ----------
     asked : sequence
@@ -37,6 +39,8 @@ def describe_basis(asked: Sequence[Any], digests: Mapping[str, str]) -> dict[str
     digests : mapping of str to str
         Of each recording by address.
     """
+    if _uses_others():
+        return {}
     versions = {name: importlib.metadata.version(name) for name in _LIBRARIES}
     contents = [list(asked), versions, digest_code(), dict(digests)]
     basis = hashlib.sha256(json.dumps(contents, sort_keys=True).encode()).hexdigest()
@@ -45,8 +49,6 @@ def describe_basis(asked: Sequence[Any], digests: Mapping[str, str]) -> dict[str
 
 def finished_records(store: RunDirectory, asked: Sequence[Any], archive: Archive) -> list[Record]:
     """Return the records of a run whose plan and report are as they would be now; none otherwise.
-
-    Code of others counts as new, since nothing tells which of their files it reads.
 
     Parameters
     ----------
@@ -66,13 +68,17 @@ def finished_records(store: RunDirectory, asked: Sequence[Any], archive: Archive
     except UsageError:  # no run got so far
         return []
     uris = plan.get("recordings", [])
-    if any(registry.names_of_others() for registry in REGISTRIES) or not _are_here(uris, archive):
+    if "basis" not in plan or _uses_others() or not _are_here(uris, archive):
         return []
-    if plan.get("basis") != describe_basis(asked, {u: archive.digest(u) for u in uris})["basis"]:
+    if plan["basis"] != describe_basis(asked, {u: archive.digest(u) for u in uris})["basis"]:
         return []
     records = [record for key in plan["keys"] if (record := store.load(key)) is not None]
     whole = len(records) == len(plan["keys"]) and not any(map(_is_open, records))
     return records if whole and _is_drawn(store, plan, records) else []
+
+
+def _uses_others() -> bool:
+    return any(registry.names_of_others() for registry in REGISTRIES)
 
 
 def _are_here(uris: Iterable[str], archive: Archive) -> bool:
@@ -91,5 +97,4 @@ def _is_drawn(store: RunDirectory, plan: Mapping[str, Any], records: Sequence[Re
     """Return whether the report there shows the records, all of one problem for each fold."""
     posed = PosedProblems()
     same = all(posed.check_record(record) is record for record in records)
-    is_there = (store.path / "report.html").is_file()
-    return same and is_there and plan.get("drawn") == stamp(records)
+    return same and last_drawn(store, plan["keys"]) == stamp(records)

@@ -71,7 +71,7 @@ class Session:
         save_plan(provenance=about)
         if with_report:
             self._write_report(records, about)
-            save_plan(provenance=about, drawn=stamp)
+            save_plan(provenance=about, drawn=bench.mark_drawn(stamp, self._page))
         else:
             self._say(without_report(self.store.path, self._page))
         return _exit_code(records)

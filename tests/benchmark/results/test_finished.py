@@ -88,6 +88,10 @@ def _lose_report(run, monkeypatch):
     (run.path / "report.html").unlink()
 
 
+def _change_report(run, monkeypatch):
+    (run.path / "report.html").write_text("")
+
+
 def _lose_plan(run, monkeypatch):
     (run.path / "plan.json").unlink()
 
@@ -108,6 +112,7 @@ def _add_model(run, monkeypatch):
         _break_record,
         _change_record,
         _lose_report,
+        _change_report,
         _lose_plan,
         _add_model,
     ],
@@ -116,3 +121,9 @@ def test_what_depends_on_something_new_is_not_finished(run, change, monkeypatch)
     assert _is_finished(run)
     change(run, monkeypatch)
     assert not _is_finished(run)
+
+
+def test_with_code_of_others_no_run_says_from_what_it_follows(monkeypatch):
+    assert finished.describe_basis(ASKED, {})
+    monkeypatch.setitem(MODELS._added, "another-laboratorys", object)
+    assert finished.describe_basis(ASKED, {}) == {}
