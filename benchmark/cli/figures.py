@@ -89,7 +89,7 @@ def figures(
         "style": (style,),
         "out": (str(out or ""),),
     }
-    given |= {"plugin": [*map(str, plugin or ())]}
+    given |= {"plugin": [*map(str, plugin or ())], "data-dir": (str(data_dir or ""),)}
     contents: dict[str, bytes] = {}
     for (task, kind, name), table in tables.items():
         command = _command_of(run, {**named, **given, "kinds": (kind,), "tasks": (task,)})

@@ -28,6 +28,8 @@ _LOG_TICKS = (((1, 2, 5), 1), ((1, 3), 1), *(((1,), every) for every in (1, 2, 3
 """Leading digits of logarithmic ticks, and at every how many powers of ten, the finest first."""
 
 
+_MOST = 1e250
+"""In size: of larger values, margins and powers of ten are beyond all numbers."""
 LOG_RANGE = 10.0
 """Ratio of the largest to the smallest value above which an axis is logarithmic."""
 NARROW = 0.05
@@ -162,7 +164,7 @@ def fit_scale(values: Iterable[float], start: float, stop: float) -> Scale:
         Where the ends are, in pixels.
     """
     low, high = _range(values)
-    kind = LogScale if low > 0.0 and high > LOG_RANGE * low else LinearScale
+    kind = LogScale if low > 1.0 / _MOST and high > LOG_RANGE * low else LinearScale
     return _around(kind, low, high, start, stop)
 
 
@@ -178,7 +180,7 @@ def fit_linear_scale(values: Iterable[float], start: float, stop: float) -> Scal
 
 def _range(values: Iterable[float]) -> tuple[float, float]:
     finite = [value for value in values if math.isfinite(value)] or [0.0, 1.0]
-    return min(finite), max(finite)
+    return max(min(finite), -_MOST), min(max(finite), _MOST)
 
 
 def _around(kind: type[Scale], low: float, high: float, start: float, stop: float) -> Scale:

@@ -92,7 +92,8 @@ class AlongColumn(Plot):
     def describe(self, table: pd.DataFrame) -> str:
         """Return what is drawn of which models."""
         shaded = table["low"].notna().any()
-        areas = f", shaded areas 95 % intervals of the first {N_BANDS} models" if shaded else ""
+        first = f", shaded areas 95 % intervals of the first {N_BANDS} models"
+        areas = f"{first}, cut where the axis ends" if shaded else ""
         folds = format_count(int(table["n"].max()), "fold")
         return f"Points are means over {folds}{areas}. {CHOICE}"
 

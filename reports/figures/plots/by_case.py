@@ -91,7 +91,7 @@ class ByCase(Plot):
         )
         return (
             "Markers are means over folds, bars their 95 % intervals by Student’s t where folds "
-            f"give one. {CHOICE}{grey}"
+            f"give one, cut where the axis ends. {CHOICE}{grey}"
         )
 
     def add_styles(self, table: pd.DataFrame, styles: Styles) -> Styles:

@@ -67,6 +67,7 @@ _FIXED = {
     "pdf.fonttype": 42,  # TrueType, embedded: publishers refuse the outlines of Type 3
     "ps.fonttype": 42,
     "savefig.dpi": 300,
+    "text.parse_math": False,  # a name with dollars is a name
     "svg.fonttype": "none",  # text stays text
     "svg.hashsalt": "mocapbench",  # ids are the same in every run
     "xtick.major.width": 0.6,

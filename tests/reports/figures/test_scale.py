@@ -85,3 +85,10 @@ def test_counts_begin_at_zero_and_equal_ratios_take_about_equal_lengths():
 def test_ticks_of_many_counts_are_few_and_zero_is_among_them():
     ticks = fit_count_scale([0, 50_000], 0.0, 100.0).ticks(4)
     assert ticks == [0, 1000, 3000, 10_000, 30_000]
+
+
+@pytest.mark.parametrize("values", [(1e-320, 1.0), (1.0, 1e308), (-1e308, 1e308), (5e-324, 1e308)])
+def test_the_largest_and_smallest_numbers_have_an_axis(values):
+    scale = fit_scale(values, 0.0, 100.0)
+    assert np.isfinite([scale.low, scale.high, *scale.ticks()]).all()
+    assert np.isfinite(scale.place(1.0))
