@@ -45,6 +45,8 @@ _ADVICE = {
     "the variable MOCAPBENCH_CACHE",
     r"(?i)connection (?:error|broken)|ConnectionError|Timeout|MaxRetryError|ProxyError|resolution|"
     r"unreachable|SSLError": "check that this machine reaches the package index, and try again",
+    r"Not a directory|Permission denied|Read-only file system": "name a folder that can be written "
+    "to in the variable MOCAPBENCH_CACHE",
     r"ensurepip": "install what this Python lacks, on Debian the package python3-venv",
     r"": "check the packages that it lists, and that they exist for this version of Python",
 }
@@ -113,12 +115,14 @@ def install_environment(requirements: Path, tell: Callable[[str], object]) -> Pa
         If it cannot be done: nothing is left of it then.
     """
     environment = find_environment(requirements)
-    sweep_environments()
+    _require_packages(requirements)
     try:
+        sweep_environments()
         environment.parent.mkdir(parents=True, exist_ok=True)
         with temporary_folder(environment.parent) as folder:
             if not environment.exists():
                 _make_environment(folder, requirements, tell)
+                _name_interpreter(folder / _MADE, environment)
             if not environment.exists():  # another process may have been faster
                 (folder / _MADE).rename(environment)
     except OSError as error:
@@ -154,6 +158,24 @@ def _make_environment(folder: Path, requirements: Path, tell: Callable[[str], ob
             raise _explain_failure(requirements, lines)
     versions = [line for line in lines if "==" in line]
     (made / _VERSIONS).write_text("\n".join(versions) + "\n", encoding="utf-8")
+
+
+def _require_packages(requirements: Path) -> None:
+    """Refuse options, such as other files, whose changes nothing would tell."""
+    lines = requirements.read_text(encoding="utf-8").splitlines()
+    if options := [line for line in lines if line.lstrip().startswith("-")]:
+        raise UsageError(
+            f"{requirements}: expected packages, one a line, got {options[0].strip()!r}; list the "
+            "packages themselves"
+        )
+
+
+def _name_interpreter(made: Path, environment: Path) -> None:
+    """Have scripts name the interpreter by its place, to which it will move."""
+    for script in (made / "bin").iterdir():
+        if script.is_file() and not script.is_symlink():
+            content = script.read_bytes()
+            script.write_bytes(content.replace(os.fsencode(made), os.fsencode(environment)))
 
 
 def _call(

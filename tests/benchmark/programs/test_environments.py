@@ -106,6 +106,8 @@ def test_a_program_finds_its_packages_once_they_are_installed(index, declared, t
     assert set(prediction.mean[GAP]) == {0.5}
     (name,) = list_left(tmp_path)
     assert name.startswith("packages-")
+    pip = tmp_path / "cache" / "environments" / name / "bin" / "pip"
+    assert subprocess.run([pip, "--version"], check=True, capture_output=True).stdout
     assert cli("models", "install", declared) == 0
     assert "packages: is installed already" in cli.printed
 
@@ -226,3 +228,17 @@ def test_a_file_without_requirements_needs_nothing(declared, cli):
     declared.write_text('name = "mine"\ncommand = ["sh"]\n')
     assert cli("models", "install", declared) == 2
     assert 'expected requirements = "FILE"' in cli.printed
+
+
+@pytest.mark.parametrize("line", ["-r other.txt", "--constraint x", "  -e ."])
+def test_options_of_pip_are_refused_whose_changes_nothing_tells(index, packages, line):
+    packages.write_text(f"halves==1.0\n{line}\n")
+    with pytest.raises(UsageError, match="expected packages, one a line, got"):
+        install_environment(packages, str)
+
+
+def test_a_cache_that_is_a_file_is_named(index, packages, tmp_path, monkeypatch):
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path / "file"))
+    with pytest.raises(UsageError, match="name a folder that can be written to in the variable"):
+        install_environment(packages, str)
