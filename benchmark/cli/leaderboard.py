@@ -38,7 +38,7 @@ def leaderboard(
     Everything is checked first: if two archives have different scores of one job or different
     recordings, or one is of another version of a task, nothing is written.
     """
-    _require_site(out)
+    _require_own_folder(out)
     if len({path.resolve() for path in archives}) < len(archives):
         raise UsageError(f"expected each archive once, got {', '.join(map(str, archives))}")
     with scratch_folder() as folder:
@@ -59,7 +59,7 @@ def leaderboard(
     )
 
 
-def _require_site(out: Path) -> None:
+def _require_own_folder(out: Path) -> None:
     """Refuse what is no folder, and one with files of anything else, such as a run directory."""
     if out.exists() and not out.is_dir():
         raise UsageError(f"--out: expected a folder, got the file {out}; name another folder")
