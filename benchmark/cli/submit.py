@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench.basics.words import format_count, printable
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DEFAULT_OUT, require_writable, show_left_out
 from mocapbench.benchmark.errors import UsageError
@@ -16,8 +16,6 @@ from mocapbench.benchmark.errors import UsageError
 __all__ = ["app"]
 
 app = typer.Typer(add_completion=False)
-
-_LONGEST = 100
 
 
 @app.command()
@@ -38,8 +36,6 @@ def submit(
     """
     if not by.strip():
         raise UsageError('--by: expected who ran it, got nothing; add --by "Your laboratory"')
-    if len(by) > _LONGEST or printable(by) != by:
-        raise UsageError(f"--by: expected at most {_LONGEST} printable letters, got {by!r}")
     if to.exists():
         raise UsageError(f"--to: expected no file called {to}; name another, or delete it")
     require_writable(to)

@@ -26,6 +26,7 @@ Submission = tuple[Mapping[str, Any], MergedRun]
 _RANGE = re.compile(r"([−-]?[\d.]+|−∞) to (−?[\d.]+|∞)")
 _CORES = re.compile(r"[0-9]{1,5}")
 _ROUNDING = 1e-9
+"""By which sums may miss the end of a range."""
 _LARGEST = 1e100
 """In size: what a figure can be drawn of."""
 

@@ -49,13 +49,15 @@ _EARLIEST = (1980, 1, 1, 0, 0, 0)
 """The time of every file, so that the same records give the same bytes."""
 _MOST_FILES, _MOST_BYTES, _LARGEST = 500_000, 2**30, 2**26
 """Of an archive, its bytes unpacked, and those of a file: a plan of 100,000 jobs takes a third."""
+_LONGEST = 100
+"""Letters of the name of who sent it."""
 _METHODS = {ZIP_STORED, ZIP_DEFLATED}
 
 _ADDRESS = re.compile(r"https?://[!-~]{1,2000}")
-_MODEL = {"paper": Name, "code": Name, "licence": Name}
+_MODEL = ("paper", "code", "licence")
 _MODELS = mapping_schema(mapping_schema(Name))
 _DOCUMENT = table_schema(
-    {"format": Literal[1], "by": Annotated[str, Meta(min_length=1, max_length=100)]},
+    {"format": Literal[1], "by": Annotated[str, Meta(min_length=1)]},
     optional={"link": Name, "models": _MODELS},
 )
 _NO_ARCHIVE = (BadZipFile, OSError, EOFError, RuntimeError, ValueError, zlib.error)
@@ -123,6 +125,7 @@ def write_submission(
         If the run has no record or tasks that others lack, or something is said of a model that it
         lacks.
     """
+    _require_sender(by)
     plan, records = store.load_plan(), store.planned()
     if not records:
         raise UsageError(f"{store.path} holds no record of its last run; run `mocapbench run`")
@@ -195,8 +198,10 @@ def read_submission(path: Path, folder: Path) -> tuple[dict[str, Any], MergedRun
 
 
 def _require_sender(by: str) -> None:
-    if by != printable(by).strip():
-        raise ForeignFileError(f"expected a sender in plain text, got {by!r}")
+    if len(by) > _LONGEST or by != printable(by).strip():
+        raise ForeignFileError(
+            f"expected a sender in plain text of at most {_LONGEST} letters, got {by!r}"
+        )
 
 
 def _list_members(path: Path) -> Iterator[tuple[str, bytes]]:

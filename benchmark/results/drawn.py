@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.directory import RunDirectory
@@ -13,7 +14,7 @@ from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.runs.source_code.folders import folders_digest
 from mocapbench.benchmark.task_files.task_file import TaskFile
 
-__all__ = ["digest_code", "last_drawn", "mark_drawn", "stamp"]
+__all__ = ["digest_code", "last_drawn", "mark_drawn", "read_stamp", "stamp"]
 
 _PARTS = ("basics", "datasets", "metrics", "baselines", "reports", "benchmark")
 
@@ -51,14 +52,16 @@ def mark_drawn(stamp: str, page: Path) -> str:
 
 
 def last_drawn(store: RunDirectory, keys: Sequence[str]) -> str:
-    """Return the stamp of the report there; an empty string unless the last run had these jobs.
-
-    It is empty, too, if somebody has changed the page since.
-    """
+    """Return the stamp of the report there; an empty string unless the last run had these jobs."""
     try:
         plan = store.load_plan()
     except UsageError:  # no run got so far
         return ""
-    page, (stamp, _, _) = store.path / "report.html", str(plan.get("drawn", "")).partition(" ")
-    there = plan["keys"] == list(keys) and page.is_file()
-    return stamp if there and mark_drawn(stamp, page) == plan.get("drawn") else ""
+    return read_stamp(store, plan) if plan["keys"] == list(keys) else ""
+
+
+def read_stamp(store: RunDirectory, plan: Mapping[str, Any]) -> str:
+    """Return the stamp of the report that a plan tells of; empty if it is gone or was changed."""
+    drawn, page = str(plan.get("drawn", "")), store.path / "report.html"
+    stamp, _, _ = drawn.partition(" ")
+    return stamp if page.is_file() and mark_drawn(stamp, page) == drawn else ""

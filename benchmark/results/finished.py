@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import REGISTRIES
-from mocapbench.benchmark.results.drawn import digest_code, last_drawn, stamp
+from mocapbench.benchmark.results.drawn import digest_code, read_stamp, stamp
 from mocapbench.benchmark.runs.directory import RunDirectory
+from mocapbench.benchmark.runs.key_parts import LIBRARIES
 from mocapbench.benchmark.runs.posed import PosedProblems
 from mocapbench.benchmark.runs.record import Record, Status
 
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
     from mocapbench.datasets import Archive
 
 __all__ = ["describe_basis", "finished_records"]
-
-_LIBRARIES = ("numpy", "scipy", "scikit-learn")
 
 
 def describe_basis(asked: Sequence[Any], digests: Mapping[str, str]) -> dict[str, Any]:
@@ -41,7 +40,7 @@ def describe_basis(asked: Sequence[Any], digests: Mapping[str, str]) -> dict[str
     """
     if _uses_others():
         return {}
-    versions = {name: importlib.metadata.version(name) for name in _LIBRARIES}
+    versions = {name: importlib.metadata.version(name) for name in LIBRARIES}
     contents = [list(asked), versions, digest_code(), dict(digests)]
     basis = hashlib.sha256(json.dumps(contents, sort_keys=True).encode()).hexdigest()
     return {"basis": basis, "recordings": sorted(digests)}
@@ -97,4 +96,4 @@ def _is_drawn(store: RunDirectory, plan: Mapping[str, Any], records: Sequence[Re
     """Return whether the report there shows the records, all of one problem for each fold."""
     posed = PosedProblems()
     same = all(posed.check_record(record) is record for record in records)
-    return same and last_drawn(store, plan["keys"]) == stamp(records)
+    return same and read_stamp(store, plan) == stamp(records)

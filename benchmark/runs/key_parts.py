@@ -24,11 +24,13 @@ from mocapbench.benchmark.foreign_files import (
 )
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["DIGEST", "KeyEntry", "encode_keys", "key_parts", "read_keys"]
+__all__ = ["DIGEST", "LIBRARIES", "KeyEntry", "encode_keys", "key_parts", "read_keys"]
 
 KeyEntry = tuple[Address, Mapping[str, str]]
 """What is known of a key: the row that it belongs to, and its parts."""
 
+LIBRARIES = ("numpy", "scipy", "scikit-learn")
+"""The numerical libraries, whose versions every key covers."""
 DIGEST = "sha256:"
 """With this begins a part that is too long to be shown or kept."""
 _LONGEST = 40

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from mocapbench.benchmark.runs.descriptions import describe_value
 from mocapbench.benchmark.runs.fitting import solve
+from mocapbench.benchmark.runs.key_parts import LIBRARIES
 from mocapbench.benchmark.runs.source_code.digest import source_digest
 from mocapbench.benchmark.tasks.base import Case
 from mocapbench.benchmark.tasks.seeds import Seeds
@@ -35,7 +36,6 @@ _FITTING = (
     "mocapbench.benchmark",
 )
 _SCORING = ("mocapbench.basics", "mocapbench.metrics")
-_LIBRARIES = ("numpy", "scipy", "scikit-learn")
 
 
 def fit_contents(
@@ -72,7 +72,7 @@ def fit_contents(
             source_digest(solve.__name__, _FITTING),
             source_digest(calibration.__module__, _FITTING) if calibration else "",
         ],
-        "libraries": {name: _installed_version(name) for name in _LIBRARIES},
+        "libraries": {name: _installed_version(name) for name in LIBRARIES},
     }
 
 

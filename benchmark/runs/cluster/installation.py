@@ -8,11 +8,12 @@ from importlib.metadata import version
 
 from mocapbench.benchmark.entry_points import find_entry_points
 from mocapbench.benchmark.registry import REGISTRIES
+from mocapbench.benchmark.runs.key_parts import LIBRARIES
 from mocapbench.benchmark.runs.source_code.folders import folders_digest
 
 __all__ = ["difference", "installation"]
 
-_LIBRARIES = ("mocapbench", "numpy", "scipy", "scikit-learn")
+_LIBRARIES = ("mocapbench", *LIBRARIES)
 _PARTS = ("basics", "datasets", "metrics", "baselines", "benchmark")
 _SOURCE = "source code of mocapbench"
 
