@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
@@ -116,6 +116,8 @@ class HoldImputer(_Interpolation):
     array([1., 1., 1., 5.])
     """
 
+    provides: ClassVar[frozenset[str]] = _Interpolation.provides | {"moves along"}
+
     @staticmethod
     def _between(knots: Frames, values: Frames, times: Frames) -> Frames:
         return values[np.searchsorted(knots, times, side="right") - 1]
@@ -155,6 +157,8 @@ class LinearImputer(_Interpolation):
     >>> LinearImputer().fit([recording]).impute([recording])[0].mean[:, 0]
     array([1., 3., 5., 5.])
     """
+
+    provides: ClassVar[frozenset[str]] = _Interpolation.provides | {"moves along"}
 
     @staticmethod
     def _between(knots: Frames, values: Frames, times: Frames) -> Frames:
@@ -307,6 +311,8 @@ class CubicSplineImputer(_Interpolation):
     >>> np.round(prediction.mean[3:5, 0], 6)
     array([27., 64.])
     """
+
+    provides: ClassVar[frozenset[str]] = _Interpolation.provides | {"moves along"}
 
     @staticmethod
     def _between(knots: Frames, values: Frames, times: Frames) -> Frames:

@@ -40,6 +40,7 @@ from mocapbench.baselines.kriging.paths import (
     match_paths,
     weigh_paths,
 )
+from mocapbench.baselines.kriging.stances import find_reference, find_stance
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array
@@ -80,7 +81,8 @@ class PoseKriging(FrameImputer, Inductive):
     1} \sum_k w_k (\mu_k(t) - \mu(t))^2`. A single training recording says nothing about it.
 
     Of the rotation and the path of a root such as the Acclaim format has, the mean heading of each
-    recording is taken out (``mocapbench.baselines.common.heading``): a motion is filled alike
+    recording is taken out (``mocapbench.baselines.common.heading``), and of markers where they
+    stand and face on the whole (``mocapbench.baselines.kriging.stances``): a motion is filled alike
     wherever it stands and faces.
 
     A recording is unlike its training if no path explains the share ``least_explained`` of its
@@ -114,6 +116,8 @@ class PoseKriging(FrameImputer, Inductive):
     ----------
     channels_, units_ : tuple of D str
         The channels of the recordings given to `fit`, and their units.
+    reference_ : ndarray of shape (M, 3)
+        The mean shape of markers that all recordings are turned to; (0, 3) without markers.
     directions_ : ndarray of shape (D,)
         The circular mean of each angle in training; 0 for channels that are no angles.
     symmetries_ : tuple of Image
@@ -152,7 +156,7 @@ class PoseKriging(FrameImputer, Inductive):
 
     family: ClassVar[str] = "Alignment"
     provides: ClassVar[frozenset[str]] = (
-        FrameImputer.provides | Inductive.provides | {"turns along"}
+        FrameImputer.provides | Inductive.provides | {"turns along", "moves along"}
     )
 
     max_frames = 500
@@ -193,7 +197,9 @@ class PoseKriging(FrameImputer, Inductive):
         checked = by_content(check_recordings(recordings))
         self.channels_: tuple[str, ...] = checked[0].channels
         self.units_: tuple[str, ...] = checked[0].units
-        ahead = [face_ahead(recording)[0] for recording in checked]
+        self.reference_: Array = find_reference(checked[0])
+        stood = [find_stance(each, self.reference_).take_out(each) for each in checked]
+        ahead = [face_ahead(recording)[0] for recording in stood]
         self.directions_: Array = mean_directions(ahead)
         usable = [in_pose_units(self._wrap_angles(one)) for one in with_steps(ahead)]
         self.names_: tuple[str, ...] = tuple(recording.name for recording in usable)
@@ -227,11 +233,14 @@ class PoseKriging(FrameImputer, Inductive):
         return recording.with_values(recording.values - away)
 
     def _predict(self, recording: Recording) -> Prediction:
-        ahead, heading = face_ahead(recording)
+        stance = find_stance(recording, self.reference_)
+        stood = stance.take_out(recording)
+        ahead, heading = face_ahead(stood)
         away = wrapping_offsets(ahead, self.directions_)
         near = ahead.with_values(ahead.values - away)
         found = from_pose_units(near, *self._fill_frames(in_pose_units(near)))
-        return face_as_before(recording, found.mean + away, found.variance, heading)
+        faced = face_as_before(stood, found.mean + away, found.variance, heading)
+        return stance.put_back(recording, faced.mean, faced.variance)
 
     def _fill_frames(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the mean and variance (N, D) of all frames given the visible ones."""

@@ -37,7 +37,7 @@ IMPLIED: Mapping[str, str] = {
     "fills frames": "continues recordings",
     "interpolates": "fills entries",
     "turns along": "fills frames",
-    "moves along": "fills entries",
+    "moves along": "fills frames",
     "blends": "clusters",
     "has coregionalisation": "has layers",
     "has latent dynamics": "has a latent space",

@@ -5,6 +5,10 @@ Their shape about it, in the mean over frames, says which way the recording face
 that takes it best to that of a reference recording. A marker at x is :math:`R^\top (x - c_t)` as
 seen from there. One rotation serves for a whole recording, whatever its vertical axis is: who turns
 around in it is seen to turn.
+
+Where whole frames are hidden, nothing says where the body is in them. The mean of all markers over
+visible frames is c then, in every frame, and the reference is turned so that the line from one side
+of the body to the other is the x axis, which `mocapbench.baselines.kriging.mirror_images` reflects.
 """
 
 from __future__ import annotations
@@ -15,15 +19,18 @@ import numpy as np
 
 from mocapbench.baselines.common.markers import marker_places
 from mocapbench.baselines.common.recordings import interpolate_channels
-from mocapbench.baselines.common.rigid import FEWEST, find_rotations
+from mocapbench.baselines.common.rigid import FEWEST, find_rotations, least_rotations
+from mocapbench.baselines.kriging.mirror_images import mirror_image
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["Stance", "find_stances"]
+__all__ = ["Stance", "find_reference", "find_stance", "find_stances"]
 
 _FLAT = 1e-6
 """Markers beside which no other lies farther, as a share, are on a line."""
+_ASIDE = np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
+"""The two sides of a body that faces as a reference does."""
 
 
 class Stance:
@@ -54,13 +61,14 @@ class Stance:
         return recording.with_values(values)
 
     def put_back(
-        self, recording: Recording, mean: FrameByChannel, variance: FrameByChannel
+        self, recording: Recording, mean: FrameByChannel, variance: FrameByChannel | None
     ) -> Prediction:
         """Return the prediction of a recording from that of what `take_out` made of it."""
-        mean, variance = mean.copy(), variance.copy()
+        mean, variance = mean.copy(), None if variance is None else variance.copy()
         mean[:, self.places] = mean[:, self.places] @ self.rotation + self.path[:, np.newaxis]
-        # Of each coordinate alone: those of a marker vary independently before.
-        variance[:, self.places] = variance[:, self.places] @ self.rotation**2
+        if variance is not None:
+            # Of each coordinate alone: those of a marker vary independently before.
+            variance[:, self.places] = variance[:, self.places] @ self.rotation**2
         return Prediction.around(recording, mean, variance)
 
 
@@ -84,6 +92,49 @@ def find_stances(recordings: Sequence[Recording], own: int) -> list[Stance]:
     shapes = [_follow_guides(recording, guides) for recording in recordings]
     reference = next((shape for k, (_, shape) in enumerate(shapes) if k != own), shapes[own][1])
     return [Stance(markers, path, _rotate(reference, shape)) for path, shape in shapes]
+
+
+def find_reference(recording: Recording) -> Array:
+    """Return the mean shape (M, 3) of the markers of a recording, about their centre.
+
+    It is turned so that the sides of the body, if names of markers tell them, are on the x axis.
+    """
+    markers = marker_places(recording.channels, recording.units)
+    shape = _average_markers(recording, markers)
+    shape = shape - shape.mean(axis=0) if len(shape) else shape
+    image = mirror_image(recording.channels)
+    if image is None or not len(shape):
+        return shape
+    opposite = [markers[:, 0].tolist().index(place) for place in image.order[markers[:, 0]]]
+    side = (shape - shape[opposite])[np.arange(len(shape)) < opposite].sum(axis=0)
+    turn = least_rotations(np.array([side, -side]), _ASIDE[np.newaxis], np.ones(2))[0]
+    return np.asarray(shape @ turn)
+
+
+def find_stance(recording: Recording, reference: Array) -> Stance:
+    """Return where the markers of a recording of whole frames stand and face, frames alike.
+
+    Parameters
+    ----------
+    recording : Recording
+    reference : ndarray of shape (M, 3)
+        What `find_reference` returned of another one with the same channels. Fewer markers than
+        three, or a recording without complete frames, have nothing to take out.
+    """
+    markers = marker_places(recording.channels, recording.units)
+    shape = _average_markers(recording, markers)
+    if len(shape) < FEWEST or len(reference) < FEWEST:
+        return Stance(markers[:0], np.zeros((len(recording.times), 3)), np.eye(3))
+    centre = shape.mean(axis=0)
+    path = np.tile(centre, (len(recording.times), 1))
+    return Stance(markers, path, _rotate(reference, shape - centre))
+
+
+def _average_markers(recording: Recording, markers: Index) -> Array:
+    """Return the mean position of markers in complete frames (M, 3); (0, 3) without any."""
+    complete = recording.visible.all(axis=1)
+    kept = markers if complete.any() else markers[:0]
+    return np.asarray(recording.values[complete][:, kept].sum(axis=0) / max(complete.sum(), 1))
 
 
 def _find_guides(recordings: Sequence[Recording], own: Recording, markers: Index) -> Index:

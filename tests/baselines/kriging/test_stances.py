@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from mocapbench.baselines.kriging.stances import find_stances
+from mocapbench.baselines.kriging.stances import find_reference, find_stance, find_stances
 from mocapbench.datasets import Recording
 
 N_FRAMES, MARKERS = 12, "abcde"
@@ -99,3 +99,48 @@ def test_markers_on_a_line_are_moved_and_not_turned():
 def test_a_recording_alone_keeps_its_direction():
     (stance,) = find_stances([_walk(3, "walk")], 0)
     np.testing.assert_allclose(stance.rotation, np.eye(3), atol=1e-12)
+
+
+def _hide_frames(recording):
+    hidden = np.zeros(recording.values.shape, dtype=bool)
+    hidden[4:8] = True
+    return recording.hide(hidden)
+
+
+@given(SEEDS)
+def test_of_whole_frames_what_is_seen_does_not_depend_on_where_a_body_stands_and_faces(seed):
+    reference = find_reference(_walk(seed, "other"))
+    walk = _hide_frames(_walk(seed + 1, "walk"))
+    moved = _move(walk, seed)
+    here, there = find_stance(walk, reference), find_stance(moved, reference)
+    np.testing.assert_allclose(there.take_out(moved).values, here.take_out(walk).values, atol=1e-9)
+
+
+@given(SEEDS)
+def test_of_whole_frames_nothing_is_turned_within_a_recording(seed):
+    walk = _hide_frames(_walk(seed, "walk"))
+    stance = find_stance(walk, find_reference(_walk(seed + 1, "other")))
+    complete = walk.visible.all(axis=1)
+    steps = np.diff(walk.values[complete][:, :15].reshape(-1, 5, 3), axis=0)
+    seen = stance.take_out(walk).values[complete][:, :15].reshape(-1, 5, 3)
+    np.testing.assert_allclose(np.diff(seen, axis=0), steps @ stance.rotation.T, atol=1e-9)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 37.0, 90.0, 180.0])
+def test_the_sides_of_a_reference_are_on_the_x_axis(degrees):
+    shape = np.array([[0.0, 9.0, 0.0], [-2.0, 5.0, 1.0], [2.0, 5.0, -0.5]])
+    names = ("head", "lhand", "rhand")
+    channels = tuple(f"{name}.{axis}" for name in names for axis in "xyz")
+    values = np.tile(Rotation.from_euler("y", degrees, degrees=True).apply(shape).ravel(), (3, 1))
+    reference = find_reference(Recording("r", np.arange(3), values, channels, ("cm",) * 9))
+    np.testing.assert_allclose((reference[1] - reference[2])[1:], 0.0, atol=1e-12)
+    np.testing.assert_allclose(reference.mean(axis=0), 0.0, atol=1e-12)
+
+
+def test_without_a_complete_frame_or_three_markers_nothing_is_taken_out():
+    walk = _walk(1, "walk")
+    hidden = walk.hide(np.ones(walk.values.shape, dtype=bool))
+    two = walk.select(CHANNELS[:6])
+    for recording in (hidden, two):
+        stance = find_stance(recording, find_reference(recording))
+        assert stance.take_out(recording) is recording
