@@ -35,6 +35,10 @@ class _Interpolation(Interpolator, Inductive):
         Mean of each channel's visible entries; NaN if it has none.
     """
 
+    provides: ClassVar[frozenset[str]] = (
+        Interpolator.provides | Inductive.provides | {"mirrors along"}
+    )
+
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Learn the channels' means.
 

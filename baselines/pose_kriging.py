@@ -28,6 +28,7 @@ from mocapbench.baselines.common.validation import (
     check_positive,
     check_share,
 )
+from mocapbench.baselines.kriging.frame_rates import keep_thirty_frames, restore_frames
 from mocapbench.baselines.kriging.mirror_images import (
     MirroredResiduals,
     find_symmetries,
@@ -91,7 +92,8 @@ class PoseKriging(FrameImputer, Inductive):
 
     The defaults gave the least error when each training walker of ``missing-frames`` was held out
     in turn; ``docs/calibration.md`` has the choice of ``least_explained``. Time is counted in
-    frames, not seconds. Where channels have several units, degrees and radians count as degrees,
+    frames, of which about 30 per second are used (``mocapbench.baselines.kriging.frame_rates``).
+    Where channels have several units, degrees and radians count as degrees,
     and mm, cm and m as the CMU database's unit of length, 5.64 cm.
 
     Parameters
@@ -156,7 +158,7 @@ class PoseKriging(FrameImputer, Inductive):
 
     family: ClassVar[str] = "Alignment"
     provides: ClassVar[frozenset[str]] = (
-        FrameImputer.provides | Inductive.provides | {"turns along", "moves along"}
+        FrameImputer.provides | Inductive.provides | {"turns along", "moves along", "mirrors along"}
     )
 
     max_frames = 500
@@ -198,7 +200,8 @@ class PoseKriging(FrameImputer, Inductive):
         self.channels_: tuple[str, ...] = checked[0].channels
         self.units_: tuple[str, ...] = checked[0].units
         self.reference_: Array = find_reference(checked[0])
-        stood = [find_stance(each, self.reference_).take_out(each) for each in checked]
+        slow = [keep_thirty_frames(each)[0] for each in checked]
+        stood = [find_stance(each, self.reference_).take_out(each) for each in slow]
         ahead = [face_ahead(recording)[0] for recording in stood]
         self.directions_: Array = mean_directions(ahead)
         usable = [in_pose_units(self._wrap_angles(one)) for one in with_steps(ahead)]
@@ -226,11 +229,16 @@ class PoseKriging(FrameImputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
-        return [self._predict(recording) for recording in recordings]
+        return [self._fill_recording(recording) for recording in recordings]
 
     def _wrap_angles(self, recording: Recording) -> Recording:
         away = wrapping_offsets(recording, self.directions_)
         return recording.with_values(recording.values - away)
+
+    def _fill_recording(self, recording: Recording) -> Prediction:
+        visible_frames(recording)  # refuses frames that are hidden in part
+        slow, kept = keep_thirty_frames(recording)
+        return restore_frames(recording, self._predict(slow), kept)
 
     def _predict(self, recording: Recording) -> Prediction:
         stance = find_stance(recording, self.reference_)

@@ -102,7 +102,9 @@ class RigidBody(Imputer, Inductive):
     """
 
     family: ClassVar[str] = "Across channels"
-    provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"moves along"}
+    provides: ClassVar[frozenset[str]] = (
+        Imputer.provides | Inductive.provides | {"moves along", "mirrors along"}
+    )
     needs: ClassVar[frozenset[str]] = frozenset({"coordinates"})
 
     def __init__(self, power: float = 4.0) -> None:

@@ -97,7 +97,9 @@ def find_stances(recordings: Sequence[Recording], own: int) -> list[Stance]:
 def find_reference(recording: Recording) -> Array:
     """Return the mean shape (M, 3) of the markers of a recording, about their centre.
 
-    It is turned so that the sides of the body, if names of markers tell them, are on the x axis.
+    If names of markers tell the sides of the body, it is turned so that these are on the x axis,
+    and averaged with its mirror image, to which the mirror image of a body then turns as the body
+    itself does.
     """
     markers = marker_places(recording.channels, recording.units)
     shape = _average_markers(recording, markers)
@@ -108,7 +110,8 @@ def find_reference(recording: Recording) -> Array:
     opposite = [markers[:, 0].tolist().index(place) for place in image.order[markers[:, 0]]]
     side = (shape - shape[opposite])[np.arange(len(shape)) < opposite].sum(axis=0)
     turn = least_rotations(np.array([side, -side]), _ASIDE[np.newaxis], np.ones(2))[0]
-    return np.asarray(shape @ turn)
+    upright = shape @ turn
+    return np.asarray((upright + upright[opposite] * [-1.0, 1.0, 1.0]) / 2.0)
 
 
 def find_stance(recording: Recording, reference: Array) -> Stance:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from typing import cast
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from mocapbench.baselines.kriging.mirror_images import Image, mirror_image
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.testing.errors import require
 from mocapbench.benchmark.testing.subject import Subject
@@ -15,6 +17,7 @@ from mocapbench.datasets import Recording, joint_positions, joint_trajectories, 
 
 __all__ = [
     "fills_alike_however_it_faces",
+    "fills_markers_alike_if_mirrored",
     "fills_markers_alike_wherever_they_stand",
     "rotate_motion",
 ]
@@ -71,6 +74,24 @@ def fills_markers_alike_wherever_they_stand(subject: Subject) -> None:
             f"markers that differ by {share:.2g} of their error",
             "take out where each recording stands and faces, or leave out 'moves along'",
         )
+
+
+def fills_markers_alike_if_mirrored(subject: Subject) -> None:
+    """Check that markers are filled alike if left and right change places, training as it is."""
+    *training, walk = _marked_walks()
+    image = cast("Image", mirror_image(walk.channels))  # names of joints tell their sides
+    model, gap = subject.fit_model(training), np.zeros(walk.values.shape, dtype=bool)
+    gap[15:30, _list_hidden(model, walk)] = True
+    filled = _fill(model, walk, gap).values
+    error = float(np.sqrt(np.mean((filled - walk.values)[gap] ** 2)))
+    mirrored = _fill(model, image.of_recording(walk), gap[:, image.order])
+    share = float(np.sqrt(np.mean((image.of(mirrored.values) - filled)[gap] ** 2))) / error
+    require(
+        share <= _MOST,
+        "the same fill of markers whose left and right have changed places",
+        f"markers that differ by {share:.2g} of their error",
+        "learn from mirror images, too, or leave out 'mirrors along'",
+    )
 
 
 def _move_markers(walk: Recording, degrees: float) -> Recording:

@@ -163,6 +163,7 @@ _OF_ABILITY: Mapping[str, tuple[ModelCheck, ...]] = {
     "interpolates": (imputers.fills_channels_apart,),
     "turns along": (facing.fills_alike_however_it_faces,),
     "moves along": (facing.fills_markers_alike_wherever_they_stand,),
+    "mirrors along": (facing.fills_markers_alike_if_mirrored,),
     "draws samples": (abilities.draws_samples,),
     "clusters": (abilities.clusters_every_recording, abilities.makes_one_cluster_of_one_style),
     "aligns": (abilities.aligns_every_frame,),

@@ -297,6 +297,12 @@ class Surveyor(PCARegression):
     provides = PCARegression.provides | {"moves along"}
 
 
+class RightHanded(PCARegression):
+    """Knows one side of the body from the other."""
+
+    provides = PCARegression.provides | {"mirrors along"}
+
+
 class Overwrites(_Mean):
     """Puts its mean over what is visible."""
 
@@ -429,6 +435,7 @@ NONCONFORMING = {
     Unseeded: "the same answer from the same seed",
     Pretends: "expected impute_uncalibrated to have the means of impute, got a difference of",
     FirstOnly: "recordings in another order, got a difference of",
+    RightHanded: "the same fill of markers whose left and right have changed places, got markers",
     Surveyor: "the same fill of markers that are turned by 90° and moved, got markers that differ",
     Compass: "the same fill of a walk that is turned by 90° and moved, got joints that differ",
     FirstOfNames: "recordings with other names, got a difference of",

@@ -1,0 +1,85 @@
+"""Recordings of many frames per second are filled as ones of thirty are."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.interpolate import CubicSpline
+
+from mocapbench.baselines import PoseKriging, Prediction
+from mocapbench.baselines.kriging.frame_rates import keep_thirty_frames, restore_frames
+from mocapbench.datasets import Recording, joint_trajectories, open_archive
+
+RATES = st.sampled_from([20.0, 30.0, 44.0, 50.0, 60.0, 100.0, 120.0, 250.0])
+
+
+def _record(rate, n_frames, hidden=slice(0, 0)):
+    """Return two channels that are cubic polynomials of time."""
+    times = np.arange(n_frames) / rate
+    values = np.column_stack([times**3 - times, 2.0 - times**2])
+    mask = np.zeros(values.shape, dtype=bool)
+    mask[hidden] = True
+    return Recording("r", times, values, ("a", "b"), ("cm", "cm")), mask
+
+
+@given(RATES, st.integers(2, 80), st.integers(0, 60), st.integers(0, 30))
+def test_what_is_kept_has_about_thirty_frames_and_covers_all(rate, n_frames, start, length):
+    full, mask = _record(rate, n_frames, slice(start, start + length))
+    slow, kept = keep_thirty_frames(full.hide(mask))
+    step = max(round(rate / 30.0), 1)
+    assert kept[0] <= 0 and kept[-1] >= n_frames - 1
+    assert (np.abs(np.diff(kept) - step) < step).all()  # a frame is moved by less than half a step
+    own = (kept >= 0) & (kept < n_frames)
+    np.testing.assert_array_equal(slow.values[own], full.hide(mask).values[kept[own]])
+    assert np.isnan(slow.values[~own]).all()
+
+
+@given(st.floats(1.0, 44.0), st.integers(2, 40))
+def test_of_thirty_frames_or_fewer_all_are_kept(rate, n_frames):
+    full, _ = _record(rate, n_frames)
+    assert keep_thirty_frames(full)[0] is full
+
+
+@given(RATES, st.integers(64, 160), st.integers(0, 60), st.integers(0, 30))
+def test_a_smooth_motion_that_is_known_at_thirty_frames_is_known_at_all(
+    rate, n_frames, start, length
+):
+    full, mask = _record(rate, n_frames, slice(start, start + length))
+    given_ = full.hide(mask)
+    slow, kept = keep_thirty_frames(given_)
+    times = kept / rate
+    mean = np.column_stack([times**3 - times, 2.0 - times**2])
+    found = Prediction.around(slow, mean, np.ones(slow.values.shape))
+    restored = restore_frames(given_, found, kept)
+    np.testing.assert_allclose(restored.mean, full.values, atol=1e-9 * (1.0 + times.max() ** 3))
+    assert (restored.variance[~mask] == 0.0).all()
+    assert (restored.variance[mask] <= 1.0 + 1e-12).all()
+
+
+@pytest.mark.parametrize("rate", [60.0, 120.0])
+def test_pose_kriging_fills_alike_at_any_multiple_of_thirty_frames(rate):
+    archive, frames = open_archive(), np.arange(0, 200, 4)
+    uris = ("gait:01_01", "gait:02_01", "gait:03_01")
+    slow = [
+        joint_trajectories(archive.skeleton(uri), archive.recording(uri).frames(frames))
+        for uri in uris
+    ]
+    fast = [_resample(walk, rate) for walk in slow]
+    here = _fill_between(slow, 0.5, 1.0)
+    there = _fill_between(fast, 0.5, 1.0)[:: round(rate / 30.0)]
+    error = np.abs(here - slow[-1].values).max()
+    np.testing.assert_allclose(there, here, atol=0.02 * error)
+
+
+def _resample(walk, rate):
+    times = np.arange(round(rate * walk.times[-1]) + 1) / rate
+    values = CubicSpline(walk.times, walk.values)(times)
+    return Recording(walk.name, times, values, walk.channels, walk.units)
+
+
+def _fill_between(walks, start, end):
+    """Return a fill of the last walk where its times are between two, both visible."""
+    *training, walk = walks
+    hidden = (walk.times > start + 1e-9) & (walk.times < end - 1e-9)
+    gap = np.repeat(hidden[:, None], walk.values.shape[1], axis=1)
+    return PoseKriging().fit(training).impute([walk.hide(gap)])[0].mean
