@@ -31,7 +31,7 @@ def keep_thirty_frames(recording: Recording) -> tuple[Recording, Index]:
     step = max(round(1.0 / (_RATE * interval)), 1)
     if step == 1:
         return recording, np.arange(n_frames)
-    complete = recording.visible.all(axis=1)
+    complete = np.asarray(recording.visible.all(axis=1))
     first = int(np.argmax([complete[start::step].sum() for start in range(step)]))
     # From the last place before the first frame on, to the first one after the last frame.
     kept = np.arange(first - step if first else 0, n_frames - 1 + step, step)
