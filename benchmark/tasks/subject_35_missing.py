@@ -110,7 +110,10 @@ subject_35_missing: Task = Task(
             opt_in=("best-of",),
         ),
         "quick": Profile(
-            tuple(case.name for case in _CASES), folds=1, budget={"n_restarts": 1, "max_iter": 10}
+            tuple(case.name for case in _CASES),
+            folds=1,
+            budget={"n_restarts": 1, "max_iter": 10},
+            opt_in=("best-of",),
         ),
         "paper": Profile(on_recordings(_CASES), folds=1),
     },

@@ -168,7 +168,7 @@ toy_interpolation_1: Task = Task(
     entrants=(Entrant("mohgp-3", "mohgp", THREE), Entrant("moa-3", "moa", THREE), *_OTHERS),
     profiles={
         "smoke": Profile(("test 1",), folds=2, budget=SMOKE_BUDGET),
-        "quick": Profile(("test 1", "test 4", "test 9"), folds=3, opt_in=_NOT_CYCLIC),
+        "quick": Profile(("test 1", "test 4", "test 9"), folds=2, opt_in=_NOT_CYCLIC),
         "paper": _paper(_one_incomplete()),
     },
 )

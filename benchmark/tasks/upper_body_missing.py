@@ -81,7 +81,7 @@ upper_body_missing: Task = Task(
             opt_in=("best-of", "channel-kriging"),
         ),
         # The held-out gaps of best-of take as long as all others together.
-        "quick": Profile(tuple(case.name for case in _CASES), folds=3, opt_in=("best-of",)),
+        "quick": Profile(tuple(case.name for case in _CASES), folds=2, opt_in=("best-of",)),
         "paper": Profile(on_recordings(_CASES), folds=N_WALKS),
     },
 )
