@@ -1,4 +1,4 @@
-from .archives import archive_at, fetch_command, full_paths, recording_names, require_recordings
+from .archives import archive_at, fetch_command, recording_names, require_recordings
 from .catalogue.entries import (
     entrant_entry,
     format_entry,
@@ -148,7 +148,6 @@ __all__ = [
     "fork_server",
     "format_entry",
     "format_for",
-    "full_paths",
     "hide_all_but",
     "hide_frames",
     "hide_runs",

@@ -9,46 +9,38 @@ from pathlib import Path
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES
-from mocapbench.datasets import Archive, named_folders
+from mocapbench.datasets import Archive
 
 __all__ = [
     "archive_at",
     "fetch_command",
     "fetch_start",
-    "full_paths",
     "recording_names",
     "require_recordings",
 ]
 
 
-def archive_at(data_dir: Path | None) -> Archive:
+def archive_at(*folders: str | Path) -> Archive:
     """Return the archive of all libraries, each given the folders that the user names.
 
     Parameters
     ----------
-    data_dir : Path or None
-        A folder of recordings, or several separated by ``os.pathsep``; None leaves it to each
-        library where to look.
+    *folders : path
+        Folders of recordings; without any, each library looks where it looks by default.
 
     Raises
     ------
     UsageError
         If one of them is not a folder.
     """
-    for folder in named_folders(data_dir):
+    for folder in map(Path, folders):
         if not folder.is_dir():
             raise UsageError(
                 f"--data-dir: expected an existing folder of recordings, got {str(folder)!r}; "
                 f"name one, or several separated by {os.pathsep!r}, or leave the option out to "
                 "download"
             )
-    return Archive({name: LIBRARIES.get(name)(data_dir) for name in LIBRARIES.names()})
-
-
-def full_paths(data_dir: Path | None) -> Path | None:
-    """Return ``data_dir`` with the full path of every folder that it names, for other processes."""
-    folders = [str(folder.resolve()) for folder in named_folders(data_dir)]
-    return Path(os.pathsep.join(folders)) if folders else None
+    return Archive({name: LIBRARIES.get(name)(*folders) for name in LIBRARIES.names()})
 
 
 def fetch_command(uris: Iterable[str], plugins: Iterable[Path]) -> str:
@@ -67,13 +59,13 @@ def recording_names(uris: Iterable[str]) -> tuple[str, ...]:
     return tuple(uri.removeprefix("cmu:") for uri in uris)
 
 
-def require_recordings(data_dir: Path | None, archive: Archive) -> None:
+def require_recordings(folders: Sequence[Path], archive: Archive) -> None:
     """Refuse folders that the user names if no library finds recordings in any of them.
 
     Parameters
     ----------
-    data_dir : Path or None
-        As for `archive_at`; None names no folder, and is never refused.
+    folders : sequence of Path
+        As for `archive_at`; none is never refused.
     archive : Archive
         Whose libraries say how recordings lie in a folder: ``Library.layout``.
 
@@ -82,7 +74,6 @@ def require_recordings(data_dir: Path | None, archive: Archive) -> None:
     UsageError
         If all folders are empty or hold other things; the message has the layout that is expected.
     """
-    folders = named_folders(data_dir)
     layout = [pattern for library in archive.libraries.values() for pattern in library.layout]
     if not folders or any(_holds(folder, layout) for folder in folders):
         return

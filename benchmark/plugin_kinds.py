@@ -59,8 +59,8 @@ PLUGIN_KINDS: Mapping[str, PluginKind] = {
         LIBRARIES,
         "subclasses of mocapbench.datasets.Library",
         _subclass_of(Library),
-        arguments=(None,),  # no folder of recordings is named
-        built="with one argument, a folder of recordings or None",
+        arguments=(Path(), Path()),
+        built="with several arguments, each a folder of recordings",
     ),
     "FORMATS": PluginKind(
         FORMATS, "subclasses of mocapbench.datasets.Format", _subclass_of(Format)

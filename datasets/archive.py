@@ -178,16 +178,14 @@ class Archive:
         return self.libraries[name], key
 
 
-def open_archive(
-    data_dir: str | Path | None = None, cache_dir: str | Path | None = None
-) -> Archive:
+def open_archive(*folders: str | Path, cache_dir: str | Path | None = None) -> Archive:
     """Return an archive of the libraries that come with the package, ``cmu`` and ``gait``.
 
     Parameters
     ----------
-    data_dir : path or None
-        Folder with the CMU database's ``subjects/``, or several separated by ``os.pathsep``; None
-        stands for the environment's ``MOCAPBENCH_DATA``, if it is set.
+    *folders : path
+        Folders with the CMU database's ``subjects/``; without any, those of the environment's
+        ``MOCAPBENCH_DATA``.
     cache_dir : path or None
         Folder for downloads; None stands for the environment's ``MOCAPBENCH_CACHE``, else for the
         user's cache.
@@ -211,4 +209,4 @@ def open_archive(
     >>> walk.name, len(walk.times), walk.channels[:3]
     ('gait:01_01', 331, ('root.tx', 'root.ty', 'root.tz'))
     """
-    return Archive({"cmu": CMULibrary(data_dir, cache_dir), "gait": GaitLibrary()})
+    return Archive({"cmu": CMULibrary(*folders, cache_dir=cache_dir), "gait": GaitLibrary()})

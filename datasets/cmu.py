@@ -32,7 +32,7 @@ from mocapbench.datasets.errors import FetchError, SkeletonUnavailable
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.markers.c3d import C3DFormat
 from mocapbench.datasets.keys import MARKERS, split_key
-from mocapbench.datasets.library import Library
+from mocapbench.datasets.library import Library, named_folders
 from mocapbench.datasets.recording import Recording
 
 if TYPE_CHECKING:
@@ -66,10 +66,9 @@ class CMULibrary(Library):
 
     Parameters
     ----------
-    data_dir : path or None
-        A folder with the database's ``subjects/``, or several separated by ``os.pathsep``, which
-        are read and never written; None stands for the environment's ``MOCAPBENCH_DATA``, if it is
-        set.
+    *folders : path
+        Folders with the database's ``subjects/``, which are read and never written; without any,
+        those of the environment's ``MOCAPBENCH_DATA``.
     cache_dir : path or None
         Where downloads and the digests of unregistered files are kept; None stands for the
         environment's ``MOCAPBENCH_CACHE``, else for the user's cache.
@@ -84,11 +83,10 @@ class CMULibrary(Library):
 
     Examples
     --------
-    >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> from mocapbench.datasets import CMULibrary
     >>> with TemporaryDirectory() as folder:
-    ...     CMULibrary(Path(folder), Path(folder)).where("35_02")
+    ...     CMULibrary(folder, cache_dir=folder).where("35_02")
     ''
     """
 
@@ -100,16 +98,14 @@ class CMULibrary(Library):
 
     def __init__(
         self,
-        data_dir: str | Path | None = None,
+        *folders: str | Path,
         cache_dir: str | Path | None = None,
-        *,
         base_url: str = CMU_URL,
         known: Mapping[str, str] | None = None,
         retries: int = 4,
         backoff: float = 0.5,
     ) -> None:
-        folder = data_dir or os.environ.get("MOCAPBENCH_DATA")
-        super().__init__(Path(folder) if folder else None)
+        super().__init__(*(folders or named_folders(os.environ.get("MOCAPBENCH_DATA"))))
         self.cache_dir: Path = find_cache(cache_dir)
         self.digests: DigestRegistry = DigestRegistry(
             registered_digests() if known is None else known,

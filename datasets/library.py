@@ -27,13 +27,14 @@ class Library(ABC):
 
     Parameters
     ----------
-    data_dir : Path or None
-        Folder of recordings that the user named, stored as ``self.data_dir``; a library may ignore
-        it. The user may name several, separated by ``os.pathsep``: ``self.folders`` has them one by
-        one.
+    *folders : path
+        Folders of recordings that the user named, in the order in which they are searched; a
+        library may ignore them.
 
     Attributes
     ----------
+    folders : tuple of Path
+        The folders.
     layout : tuple of str
         Patterns of the files that it reads below a folder that the user names, such as
         ``"subjects/*/*.amc"``. A library that reads such files sets it, so that a folder without
@@ -66,13 +67,8 @@ class Library(ABC):
 
     layout: ClassVar[tuple[str, ...]] = ()
 
-    def __init__(self, data_dir: Path | None = None) -> None:
-        self.data_dir = data_dir
-
-    @property
-    def folders(self) -> tuple[Path, ...]:
-        """The folders that ``data_dir`` names, in the order in which they are searched."""
-        return named_folders(self.data_dir)
+    def __init__(self, *folders: str | Path) -> None:
+        self.folders: tuple[Path, ...] = tuple(map(Path, folders))
 
     @abstractmethod
     def where(self, key: str) -> str:
@@ -144,12 +140,12 @@ class Library(ABC):
         raise SkeletonUnavailable(key, type(self).__name__)
 
 
-def named_folders(data_dir: str | Path | None) -> tuple[Path, ...]:
-    """Return the folders that a user names, separated by ``os.pathsep`` as in ``PATH``.
+def named_folders(text: str | None) -> tuple[Path, ...]:
+    """Return the folders that an option or a variable names, in the manner of ``PATH``.
 
     Parameters
     ----------
-    data_dir : str, Path or None
-        None names none.
+    text : str or None
+        Paths separated by ``os.pathsep``; None names no folder.
     """
-    return tuple(Path(part) for part in str(data_dir or "").split(os.pathsep) if part)
+    return tuple(Path(part) for part in (text or "").split(os.pathsep) if part)

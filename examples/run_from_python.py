@@ -10,10 +10,10 @@ from mocapbench import benchmark as bench
 def main() -> None:
     """Plan the jobs, run them on two workers, and print the scores."""
     request = bench.Request("smoke", tasks=("toy-interpolation-1",), models=("linear", "knn"))
-    jobs = bench.plan(request, bench.archive_at(None))
+    jobs = bench.plan(request, bench.archive_at())
     about = {**bench.provenance(["run_from_python.py"], 1), "profile": request.profile, "seed": "0"}
     config = bench.WorkerConfig(
-        data_dir=None, plugins=(), timeout=600.0, memory=4 * 2**30, threads=1, provenance=about
+        folders=(), plugins=(), timeout=600.0, memory=4 * 2**30, threads=1, provenance=about
     )
     store = bench.RunDirectory.create(Path("from-python"))
     store.save_plan(bench.plan_document(jobs, workers=2, task_files=[], provenance=about))

@@ -16,6 +16,7 @@ from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DataDir, Plugins, load_plugins, open_archive
 from mocapbench.benchmark.errors import ExitCode, UsageError
+from mocapbench.datasets import named_folders
 
 if TYPE_CHECKING:
     from mocapbench.datasets import Archive, RecordingStatus
@@ -102,7 +103,7 @@ def _get_each(
     archive: Archive,
     get: Callable[[str], object],
     trials: Sequence[str] | None,
-    data_dir: Path | None,
+    data_dir: str | None,
 ) -> Sequence[RecordingStatus]:
     """Get all recordings that can be had, show what is here, and say what failed."""
     console, addresses = LiteralConsole(), _addresses(trials, archive)
@@ -135,7 +136,7 @@ def _addresses(trials: Iterable[str] | None, archive: Archive) -> list[str]:
     return sorted(uri for uri in recordings if not uri.startswith("gait:"))
 
 
-def _show(rows: Sequence[RecordingStatus], data_dir: Path | None, console: LiteralConsole) -> None:
+def _show(rows: Sequence[RecordingStatus], data_dir: str | None, console: LiteralConsole) -> None:
     """Show one row a recording, with digests if one was computed, and the totals."""
     heads = [Column("recording", no_wrap=True), Column("state"), Column("where", overflow="fold")]
     if any(row.digest for row in rows):
@@ -145,15 +146,15 @@ def _show(rows: Sequence[RecordingStatus], data_dir: Path | None, console: Liter
         cells = (row.uri, row.state, row.where, row.digest[:16])
         table.add_row(*cells[: len(heads)])
     console.print(table)
-    console.print(bench.data_totals(rows, data_dir), soft_wrap=True)
+    console.print(bench.data_totals(rows, named_folders(data_dir)), soft_wrap=True)
 
 
 def _suggest(
     rows: Sequence[RecordingStatus],
     trials: Sequence[str] | None,
-    data_dir: Path | None,
+    data_dir: str | None,
     plugin: Sequence[Path] | None,
 ) -> None:
     """Say what to do next."""
-    step = bench.next_data_step(rows, trials or (), data_dir, plugin or ())
+    step = bench.next_data_step(rows, trials or (), named_folders(data_dir), plugin or ())
     LiteralConsole().print(step, soft_wrap=True)

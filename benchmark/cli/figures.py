@@ -89,7 +89,7 @@ def figures(
         "style": (style,),
         "out": (str(out or ""),),
     }
-    given |= {"plugin": [*map(str, plugin or ())], "data-dir": (str(data_dir or ""),)}
+    given |= {"plugin": [*map(str, plugin or ())], "data-dir": (data_dir or "",)}
     contents: dict[str, bytes] = {}
     for (task, kind, name), table in tables.items():
         command = _command_of(run, {**named, **given, "kinds": (kind,), "tasks": (task,)})
@@ -116,7 +116,7 @@ def _require_drawable(named: Mapping[str, Sequence[str]], style: str) -> None:
 
 
 def _bundle_run(
-    store: RunDirectory, named: Mapping[str, Sequence[str]], data_dir: Path | None
+    store: RunDirectory, named: Mapping[str, Sequence[str]], data_dir: str | None
 ) -> tuple[reports.Bundle, Mapping[str, reports.DrawingStyle]]:
     """Return what is chosen of a run, and the styles that its page has for all models."""
     task_files, records = load_tasks(store), load_records(store)

@@ -14,6 +14,7 @@ from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import is_writable
 from mocapbench.benchmark.programs.entrants import locate_plugin, select_entrants
+from mocapbench.datasets import named_folders
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Record, RunDirectory, TaskFile
@@ -52,9 +53,10 @@ Names = Annotated[
 ]
 Out = Annotated[Path, typer.Option(help="The run directory: new, empty, or an earlier run's.")]
 DataDir = Annotated[
-    Path | None,
+    str | None,
     typer.Option(
         envvar="MOCAPBENCH_DATA",
+        metavar="PATH",
         help=f"A folder of recordings (subjects/NN/…), or several with {pathsep} between them.",
     ),
 ]
@@ -118,13 +120,13 @@ def load_records(store: RunDirectory) -> list[Record]:
     return records
 
 
-def open_archive(data_dir: Path | None, task_files: Sequence[TaskFile] = ()) -> Archive:
+def open_archive(data_dir: str | None, task_files: Sequence[TaskFile] = ()) -> Archive:
     """Return the archive of all libraries, given the folders that the user names.
 
     Parameters
     ----------
-    data_dir : Path or None
-        See `mocapbench.benchmark.archive_at`.
+    data_dir : str or None
+        The folders, separated by ``os.pathsep``.
     task_files : sequence of TaskFile
         Whose folders have recordings too, as far as they are still there.
 
@@ -133,8 +135,9 @@ def open_archive(data_dir: Path | None, task_files: Sequence[TaskFile] = ()) -> 
     UsageError
         If one of ``data_dir`` is not a folder, or none of them holds recordings.
     """
-    bench.require_recordings(data_dir, bench.archive_at(data_dir))
-    return bench.archive_at(bench.with_folders(data_dir, task_files))
+    folders = named_folders(data_dir)
+    bench.require_recordings(folders, bench.archive_at(*folders))
+    return bench.archive_at(*bench.with_folders(folders, task_files))
 
 
 def require_writable(*paths: Path | None) -> None:

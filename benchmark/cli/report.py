@@ -60,7 +60,7 @@ def report(
             )
 
 
-def _report_one(out: Path, to: Path | None, data_dir: Path | None) -> None:
+def _report_one(out: Path, to: Path | None, data_dir: str | None) -> None:
     store, console = bench.RunDirectory(out), LiteralConsole()
     plan, task_files, records = store.load_plan(), load_tasks(store), load_records(store)
     archive, path = open_archive(data_dir, task_files), to or out / "report.html"

@@ -28,9 +28,10 @@ from mocapbench.benchmark.cli.running.log import require_log, run_log
 from mocapbench.benchmark.cli.running.messages import downloading, fetching
 from mocapbench.benchmark.cli.running.session import Session, end_if_finished
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.datasets import named_folders
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark import Job, Request
+    from mocapbench.benchmark import Job, Request, TaskFile
     from mocapbench.datasets import Archive
 
 __all__ = ["app"]
@@ -132,7 +133,7 @@ def run(
         return
     store, backend = bench.RunDirectory.create(out), bench.open_backend(jobs, scheduler, cluster)
     config = bench.WorkerConfig(
-        bench.full_paths(bench.with_folders(data_dir, task_files)),
+        _absolute_folders(data_dir, task_files),
         plugins,
         timeout,
         int((memory or backend.memory) * 2**30),
@@ -145,6 +146,12 @@ def run(
         basis = {} if plugins or task_files else _describe_basis(asked, planned)
         session = Session(planned, store, config, backend, console, log, basis)
         raise typer.Exit(session.run(with_report=not no_report))
+
+
+def _absolute_folders(data_dir: str | None, task_files: Sequence[TaskFile]) -> tuple[Path, ...]:
+    """Return the folders of recordings as processes in other folders find them."""
+    folders = bench.with_folders(named_folders(data_dir), task_files)
+    return tuple(folder.resolve() for folder in folders)
 
 
 def _end_if_finished(

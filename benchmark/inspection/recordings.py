@@ -14,11 +14,11 @@ from mocapbench.datasets import RecordingStatus, named_folders
 __all__ = ["data_totals", "next_data_step"]
 
 
-def data_totals(rows: Sequence[RecordingStatus], data_dir: Path | None) -> str:
+def data_totals(rows: Sequence[RecordingStatus], folders: Sequence[Path]) -> str:
     """Return how many recordings are in which state, and how many each named folder has."""
     states = Counter(row.state for row in rows)
     parts = [", ".join(f"{count} {state}" for state, count in states.items())]
-    for folder in named_folders(data_dir):
+    for folder in folders:
         count = sum(folder in Path(row.where).parents for row in rows)
         parts.append(f"{count} in {folder}")
     return f"{format_count(len(rows), 'recording')}: {'; '.join(filter(None, parts))}"
@@ -27,7 +27,7 @@ def data_totals(rows: Sequence[RecordingStatus], data_dir: Path | None) -> str:
 def next_data_step(
     rows: Sequence[RecordingStatus],
     recordings: Sequence[str],
-    data_dir: Path | None,
+    folders: Sequence[Path],
     plugins: Sequence[Path],
 ) -> str:
     """Return the command to give next, and why.
@@ -37,11 +37,11 @@ def next_data_step(
     rows : sequence of RecordingStatus
     recordings : sequence of str
         Those that the user named, none for all that tasks use.
-    data_dir : Path or None
+    folders : sequence of Path
     plugins : sequence of Path
         The options that the user gave, and has to give to the next command too.
     """
-    states, options = Counter(row.state for row in rows), [*_list_options(data_dir, plugins)]
+    states, options = Counter(row.state for row in rows), [*_list_options(folders, plugins)]
     fetch, verify = (
         shlex.join(["mocapbench", "data", name, *recordings, *options])
         for name in ("fetch", "verify")
@@ -55,8 +55,8 @@ def next_data_step(
     return f"next: `{shlex.join(['mocapbench', 'run', *options])}`"
 
 
-def _list_options(data_dir: Path | None, plugins: Sequence[Path]) -> Iterator[str]:
-    if data_dir and str(data_dir) != os.environ.get("MOCAPBENCH_DATA"):
-        yield from ("--data-dir", str(data_dir))
+def _list_options(folders: Sequence[Path], plugins: Sequence[Path]) -> Iterator[str]:
+    if folders and tuple(folders) != named_folders(os.environ.get("MOCAPBENCH_DATA")):
+        yield from ("--data-dir", os.pathsep.join(map(str, folders)))
     for path in plugins:
         yield from ("--plugin", str(path))

@@ -24,8 +24,8 @@ class WorkerConfig:
 
     Parameters
     ----------
-    data_dir : Path or None
-        A folder of recordings that the user names, or several separated by ``os.pathsep``.
+    folders : tuple of Path
+        Folders of recordings that the user names.
     plugins : tuple of Path
         The user's own files of models, tasks, metrics and libraries.
     timeout : float
@@ -40,7 +40,7 @@ class WorkerConfig:
         The user's own tasks in TOML.
     """
 
-    data_dir: Path | None
+    folders: tuple[Path, ...]
     plugins: tuple[Path, ...]
     timeout: float
     memory: int

@@ -93,7 +93,7 @@ def _compute_records(
     posed: PosedProblems,
 ) -> Iterator[Record]:
     """Yield the record of each job as it ends, once it is in the store."""
-    archive, queue = archive_at(config.data_dir), JobQueue(jobs)
+    archive, queue = archive_at(*config.folders), JobQueue(jobs)
     with scratch_folder() as folder:
         spool, models = Spool(folder), TrainedModels(folder)
 

@@ -24,12 +24,12 @@ class FolderLibrary(Library):
 
     Parameters
     ----------
-    data_dir : Path or None
+    *folders : path
         See `Library`. The first folder that has the file counts.
     """
 
-    def __init__(self, data_dir: Path | None = None) -> None:
-        super().__init__(data_dir)
+    def __init__(self, *folders: str | Path) -> None:
+        super().__init__(*folders)
         self._digests: dict[str, str] = {}
 
     def where(self, key: str) -> str:

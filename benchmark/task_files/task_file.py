@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from mocapbench.benchmark.foreign_files import Name, Text
 from mocapbench.benchmark.task_files.document import Document
-from mocapbench.datasets import named_folders
 
 __all__ = ["TaskFile", "with_folders"]
 
@@ -46,8 +44,7 @@ class TaskFile:
         return Document(self.file, self.text)
 
 
-def with_folders(data_dir: Path | None, files: Iterable[TaskFile]) -> Path | None:
-    """Return ``data_dir`` with the folders of task files before it, those that are there."""
+def with_folders(folders: Iterable[Path], files: Iterable[TaskFile]) -> tuple[Path, ...]:
+    """Return ``folders`` after the folders of task files, those that are there."""
     own = dict.fromkeys(Path(file.folder) for file in files)
-    folders = [*(folder for folder in own if folder.is_dir()), *named_folders(data_dir)]
-    return Path(os.pathsep.join(map(str, folders))) if folders else None
+    return (*(folder for folder in own if folder.is_dir()), *folders)

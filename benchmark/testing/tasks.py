@@ -43,7 +43,7 @@ def check_task(task: Task, archive: Archive | None = None) -> None:
         _check_names(task)
         _check_profiles(task)
     with raised_by(f"task {task.name}", "it poses a problem"):
-        _check_problems(task, archive or archive_at(None))
+        _check_problems(task, archive or archive_at())
 
 
 def _check_names(task: Task) -> None:

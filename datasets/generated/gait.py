@@ -52,7 +52,7 @@ class GaitLibrary(Library):
 
     Parameters
     ----------
-    data_dir : Path or None
+    *folders : path
         Not used: recordings are generated.
 
     Examples

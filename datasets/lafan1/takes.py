@@ -23,7 +23,7 @@ from mocapbench.datasets.errors import FetchError
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.joints.bvh import BVHFormat
 from mocapbench.datasets.lafan1.hierarchy import parse_hierarchy
-from mocapbench.datasets.library import Library
+from mocapbench.datasets.library import Library, named_folders
 from mocapbench.datasets.recording import Recording
 
 __all__ = ["SUBJECTS", "LaFAN1Library"]
@@ -43,27 +43,25 @@ class LaFAN1Library(Library):
 
     Parameters
     ----------
-    data_dir : path or None
-        A folder with ``lafan1.zip``, or several separated by ``os.pathsep``; None stands for the
-        environment's ``MOCAPBENCH_DATA``.
+    *folders : path
+        Folders, of which one has ``lafan1.zip``; without any, those of the environment's
+        ``MOCAPBENCH_DATA``.
     expected : str
         The SHA-256 of the file.
 
     Examples
     --------
-    >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> from mocapbench.datasets import LaFAN1Library
     >>> with TemporaryDirectory() as folder:
-    ...     LaFAN1Library(Path(folder)).where("subject5")
+    ...     LaFAN1Library(folder).where("subject5")
     ''
     """
 
     layout: ClassVar[tuple[str, ...]] = (_FILE,)
 
-    def __init__(self, data_dir: str | Path | None = None, expected: str = _DIGEST) -> None:
-        folder = data_dir or os.environ.get("MOCAPBENCH_DATA")
-        super().__init__(Path(folder) if folder else None)
+    def __init__(self, *folders: str | Path, expected: str = _DIGEST) -> None:
+        super().__init__(*(folders or named_folders(os.environ.get("MOCAPBENCH_DATA"))))
         self.expected = expected
 
     def where(self, key: str) -> str:

@@ -23,7 +23,7 @@ from mocapbench.datasets.acclaim.motion import FRAME_RATE
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.cmu import CMULibrary
 from mocapbench.datasets.formats.errors import FormatError
-from mocapbench.datasets.library import Library
+from mocapbench.datasets.library import Library, named_folders
 from mocapbench.datasets.recording import FrameByChannel, Recording
 from mocapbench.datasets.rotations.body import (
     ROTATION_CHANNELS,
@@ -47,26 +47,24 @@ class RotationLibrary(Library):
 
     Parameters
     ----------
-    data_dir : path or None
-        A folder with ``train`` and ``test``, or with recordings of the CMU database, or several
-        separated by ``os.pathsep``; None stands for the environment's ``MOCAPBENCH_DATA``.
+    *folders : path
+        Folders with ``train`` and ``test``, or with recordings of the CMU database; without any,
+        those of the environment's ``MOCAPBENCH_DATA``.
 
     Examples
     --------
-    >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
     >>> from mocapbench.datasets import RotationLibrary
     >>> with TemporaryDirectory() as folder:
-    ...     RotationLibrary(Path(folder)).where("test/basketball_1")
+    ...     RotationLibrary(folder).where("test/basketball_1")
     ''
     """
 
     layout: ClassVar[tuple[str, ...]] = ("train/*/*_[1-5].txt*", "test/*/*_1.txt*")
 
-    def __init__(self, data_dir: str | Path | None = None) -> None:
-        folder = data_dir or os.environ.get("MOCAPBENCH_DATA")
-        super().__init__(Path(folder) if folder else None)
-        self._database = CMULibrary(data_dir)
+    def __init__(self, *folders: str | Path) -> None:
+        super().__init__(*(folders or named_folders(os.environ.get("MOCAPBENCH_DATA"))))
+        self._database = CMULibrary(*folders)
 
     def where(self, key: str) -> str:
         """Return the path of the file, or else of the recording that it was made from."""

@@ -58,7 +58,7 @@ def purity(labels: np.typing.NDArray[np.intp], styles: Styles = CMU) -> float:
 def tempo(n_restarts: int = 5) -> None:
     """Print the purity of groups by shape, and by shape and tempo, as they start and after EM."""
     for name, styles in (("others", OTHERS), ("the task's", CMU)):
-        recordings = list(read_features(styles, bench.archive_at(None)).values())
+        recordings = list(read_features(styles, bench.archive_at()).values())
         for n_styles in range(2, 9):
             rows = [_by_tempo(recordings, styles, n_styles, seed) for seed in range(n_restarts)]
             print(name, n_styles, "shape, and tempo:", *np.mean(rows, axis=0).round(3))
@@ -106,14 +106,14 @@ def _left_out(recordings: dict[str, Recording], names: Sequence[str], seed: int)
 
 def bodies() -> None:
     """Print the errors on walks of subjects 08 and 35, without subject 07."""
-    recordings = read_features(CMU, bench.archive_at(None))
+    recordings = read_features(CMU, bench.archive_at())
     others = {name: r for name, r in recordings.items() if not name.startswith("cmu:07")}
     _left_out(others, [f"cmu:{trial}" for trial in LEFT_OUT], 0)
 
 
 def walks() -> None:
     """Print the errors on the task's walks."""
-    recordings = read_features(CMU, bench.archive_at(None))
+    recordings = read_features(CMU, bench.archive_at())
     for seed in range(5):
         _left_out(recordings, [n for n in recordings if n.startswith("cmu:07")], seed)
 

@@ -108,7 +108,7 @@ OTHERS = "10_01 10_02 10_03 16_01 16_03 16_08 16_11 16_17 16_31 16_32 64_05 64_1
 
 def training() -> list[Recording]:
     """Return the training walkers that are at hand."""
-    archive = bench.archive_at(None)
+    archive = bench.archive_at()
     return [
         gpdm_features(one_based_frames(archive.recording(uri), *TRAINING[uri]))
         for uri in GROUPS["three-walkers"]
@@ -148,7 +148,7 @@ def walkers() -> None:
 
 def new_walkers() -> None:
     """Print the scores of walks and other motions that take part in no task as tests."""
-    train, archive = training(), bench.archive_at(None)
+    train, archive = training(), bench.archive_at()
     for name, make in MODELS.items():
         model = make().fit(train)
         for trial in WALKS.split():
@@ -158,7 +158,7 @@ def new_walkers() -> None:
 
 def best_of() -> None:
     """Print the scores of `best-of` beside those of pose-kriging and an interpolation."""
-    walks, archive = training(), bench.archive_at(None)
+    walks, archive = training(), bench.archive_at()
     tests = [(walk, [other for other in walks if other is not walk]) for walk in walks]
     others = [gpdm_features(archive.recording(f"cmu:{trial}")) for trial in OTHERS.split()]
     tests += [(other, walks) for other in others if len(other.times) >= N_TEST_FRAMES]
@@ -170,7 +170,7 @@ def best_of() -> None:
 
 def pose_problems(task: str, named: str, n_folds: int) -> Iterator[ImputeProblem]:
     """Yield problems of a task with another root seed than the benchmark."""
-    archive = bench.archive_at(None)
+    archive = bench.archive_at()
     for case in bench.TASKS.get(task).cases:
         if named in case.name and not case.synthetic:
             for fold in range(n_folds):

@@ -80,7 +80,7 @@ def seeds() -> Iterator[str]:
         assert isinstance(case.problem, partial)
         few = case.problem.keywords | {"training": ()}
         address = Address("motion-prediction-8-windows", 1, case.name, 0)
-        problem = case.problem.func(Seeds(0, address), archive_at(None), **few)
+        problem = case.problem.func(Seeds(0, address), archive_at(), **few)
         starts = sorted(round(60 * window.times[0]) for window in problem.given)
         yield f"{action}: {starts}"
 

@@ -78,7 +78,7 @@ WALKERS: Mapping[str, tuple[Callable[[PoseKriging], PoseKriging], dict[str, floa
 
 def left_out() -> Iterator[tuple[list[Recording], list[ImputeProblem]]]:
     """Yield the other training walkers, and gaps in the one that is left out."""
-    archive = bench.archive_at(None)
+    archive = bench.archive_at()
     walks = [
         gpdm_features(one_based_frames(archive.recording(uri), *TRAINING[uri]))
         for uri in GROUPS["three-walkers"]
@@ -139,7 +139,7 @@ def _score(task: str, case: str, model: FrameImputer, names: Sequence[str], n_fo
 def _posed(task: str, case: str, fold: int) -> ImputeProblem:
     found = TASKS.get(task).case(case)
     address = Address(task, TASKS.get(task).version, found.problem_name, fold)
-    problem = found.problem(Seeds(0, address), bench.archive_at(None))
+    problem = found.problem(Seeds(0, address), bench.archive_at())
     assert isinstance(problem, ImputeProblem)
     return problem
 

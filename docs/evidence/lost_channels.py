@@ -56,7 +56,7 @@ MOST_FRAMES, STEP = 480, 4
 
 def recordings(trials: str) -> list[Recording]:
     """Return the joint angles that move in all of these recordings."""
-    archive = bench.archive_at(None)
+    archive = bench.archive_at()
     whole = [archive.recording(f"cmu:{trial}") for trial in trials.split()]
     cut = [one.frames(np.arange(0, min(len(one.times), MOST_FRAMES), STEP)) for one in whole]
     moving = np.min([np.std(one.values, axis=0) for one in cut], axis=0) > 1e-3

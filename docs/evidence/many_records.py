@@ -42,14 +42,14 @@ def timed(what: str, n_jobs: int) -> Iterator[None]:
 
 def main(n_jobs: int, folder: Path) -> None:
     """Measure each step once."""
-    archive, rng = bench.archive_at(None), np.random.default_rng(0)
+    archive, rng = bench.archive_at(), np.random.default_rng(0)
     n_cases = len(bench.TASKS.get(TASK).cases)
     folds = -(-n_jobs // (n_cases * len(MODELS)))
     request = bench.Request("paper", (TASK,), MODELS, folds=folds)
     with timed("plan", n_jobs):
         jobs = bench.plan(request, archive)
     about = bench.provenance(["mocapbench"], 1)
-    config = bench.WorkerConfig(None, (), 600.0, resource.RLIM_INFINITY, 1, about)
+    config = bench.WorkerConfig((), (), 600.0, resource.RLIM_INFINITY, 1, about)
     outcomes = {
         job.address.label: evaluate(Work(job, None), config, archive)
         for job in jobs

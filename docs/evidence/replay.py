@@ -59,7 +59,7 @@ def repeated(problem: SynthesiseProblem) -> Iterator[tuple[str, Array]]:
 
 def main() -> None:
     """Print the table."""
-    archive = archive_at(None)
+    archive = archive_at()
     rows = []
     for task, case in CASES.items():
         seeds = Seeds(0, Address(task, 1, case, 0))

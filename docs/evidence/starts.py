@@ -30,7 +30,7 @@ DEFAULT = MOHGP().n_restarts
 def recordings(test: int, fold: int, seed: int) -> tuple[Recording, ...]:
     """Return the training recordings of a test of `toy-interpolation-1`."""
     seeds = Seeds(seed, Address("starts", 1, f"test {test}", fold))
-    return tuple(toy_problem(ONE_INCOMPLETE[test - 1], seeds, open_archive(None)).train)
+    return tuple(toy_problem(ONE_INCOMPLETE[test - 1], seeds, open_archive()).train)
 
 
 def losses(n_starts: int, n_folds: int, seed: int) -> Iterator[dict[str, float]]:

@@ -59,7 +59,7 @@ def _norm(model: LDS, test: Recording, hidden: np.typing.NDArray[np.intp]) -> fl
 def states() -> None:
     """Print the errors by number of states, and the seconds that a fit of all walkers takes."""
     warnings.simplefilter("ignore")
-    archive = bench.archive_at(None)
+    archive = bench.archive_at()
     walks = [
         gpdm_features(one_based_frames(archive.recording(uri), *TRAINING[uri]))
         for uri in GROUPS["three-walkers"]
@@ -79,7 +79,7 @@ def states() -> None:
 
 def clusters() -> None:
     """Print the purity of eight clusters, for styles and for subjects, by start."""
-    recordings = list(read_features(CMU, bench.archive_at(None)).values())
+    recordings = list(read_features(CMU, bench.archive_at()).values())
     subjects = [uri.partition("_")[0] for uri in CMU]
     for start in range(N_STARTS):
         labels = LGSSM(8, n_restarts=1, random_state=start).fit(recordings).labels_

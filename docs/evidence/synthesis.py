@@ -19,7 +19,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -37,7 +36,7 @@ from mocapbench.benchmark.tasks.thesis_recordings import (
     Window,
     read_excerpt,
 )
-from mocapbench.datasets import Recording, open_archive
+from mocapbench.datasets import Recording, named_folders, open_archive
 from mocapbench.metrics import Synthesis
 
 REFERENCES = {name: uri for name, uri in WALKS.items() if name != "38(2)"}
@@ -64,7 +63,7 @@ MODELS: Mapping[str, type[MOHGP] | type[MOA]] = {"mohgp-3": MOHGP, "moa-3": MOA}
 
 def excerpts(uris: Sequence[str], windows: Mapping[str, Window]) -> list[Recording]:
     """Return 90 frames of each recording."""
-    archive = open_archive(Path(os.environ["MOCAPBENCH_DATA"]))
+    archive = open_archive(*named_folders(os.environ["MOCAPBENCH_DATA"]))
     return [read_excerpt(archive, uri, windows) for uri in uris]
 
 

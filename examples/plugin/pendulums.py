@@ -16,7 +16,7 @@ N_FRAMES, N_HIDDEN = 120, 20
 
 
 class Pendulums(Library):
-    """Swinging pendulums of three lengths; a library of yours may read files of `data_dir`."""
+    """Swinging pendulums of three lengths; a library of yours may read files of `folders`."""
 
     def where(self, key):
         return "generated" if key in LENGTHS else ""

@@ -55,7 +55,7 @@ def posed():
         task = TASKS.get(task)
         case = task.case(case)
         address = Address(task.name, task.version, case.problem_name, fold)
-        return case.problem(Seeds(0, address), archive_at(None))
+        return case.problem(Seeds(0, address), archive_at())
 
     return pose
 

@@ -1,8 +1,5 @@
 """Folders of recordings that the user names: those that hold none are refused."""
 
-import os
-from pathlib import Path
-
 import pytest
 
 from mocapbench.benchmark.archives import archive_at, require_recordings
@@ -14,8 +11,7 @@ LAYOUT = r"subjects/\*/\*\.asf, subjects/\*/\*\.amc, .*"
 
 
 def check(*folders):
-    named = Path(os.pathsep.join(map(str, folders)))
-    require_recordings(named, archive_at(named))
+    require_recordings(folders, archive_at(*folders))
 
 
 @pytest.fixture
@@ -39,9 +35,9 @@ def test_a_folder_laid_out_as_expected_is_taken(database):
 
 
 def test_without_a_folder_none_is_looked_for_and_a_wrong_one_is_refused(empty):
-    assert require_recordings(None, archive_at(None)) is None
+    assert require_recordings((), archive_at()) is None
     with pytest.raises(UsageError):
-        require_recordings(empty, archive_at(empty))
+        require_recordings([empty], archive_at(empty))
 
 
 def test_an_empty_folder_is_said_to_be_empty_with_the_layout_expected(empty):

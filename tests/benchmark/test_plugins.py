@@ -107,7 +107,7 @@ def test_several_of_a_kind_can_be_added(load):
 
 def test_a_library_that_is_added_is_part_of_the_archive(load):
     load(DOORS["LIBRARIES"])
-    assert archive_at(None).available("my-library:01_01")
+    assert archive_at().available("my-library:01_01")
 
 
 def test_a_format_that_is_added_reads_its_files(load, tmp_path):
@@ -210,7 +210,7 @@ WRONG = {
     "FORMATS = {'csv': Table}": "expected a name that no format .* has, got 'csv'; choose",
     "TASKS = {'a': task('b')}": "expected the task under its own name 'b', got 'a'",
     "METRICS = {'a': mine('b')}": "expected the metric under its own name 'b', got 'a'",
-    "LIBRARIES = {'a': Library}": "can be built with one argument, a folder .*, got 'a': .*abstra",
+    "LIBRARIES = {'a': Library}": "be built with several arguments, .*folder .*, got 'a': .*abstra",
     "FORMATS = {'a': Format}": "that can be built without arguments, got 'a': .*abst",
     f"{ABSTRACT}MODELS = {{'a': Imputer}}": "that can be built without arguments, got 'a': .*abst",
 }

@@ -136,7 +136,7 @@ def data_dir():
 @pytest.fixture(scope="session")
 def cmu(data_dir, tmp_path_factory):
     """The archive of real recordings."""
-    return open_archive(data_dir, tmp_path_factory.mktemp("cache"))
+    return open_archive(data_dir, cache_dir=tmp_path_factory.mktemp("cache"))
 
 
 class Tree(BaseHTTPRequestHandler):

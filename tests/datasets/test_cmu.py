@@ -3,7 +3,6 @@
 import os
 import pickle
 from hashlib import sha256
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -40,7 +39,7 @@ def library(server, files, known, tmp_path):
     server.files = dict(files)
     return CMULibrary(
         tmp_path / "data",
-        tmp_path / "cache",
+        cache_dir=tmp_path / "cache",
         base_url=server.url,
         known=known,
         retries=1,
@@ -94,7 +93,7 @@ def test_one_file_may_be_in_the_folder_and_the_other_in_the_cache(library, files
 
 def test_several_folders_are_searched_in_order(known, files, tmp_path):
     one, two = tmp_path / "one", tmp_path / "two"
-    library = CMULibrary(Path(f"{one}{os.pathsep}{two}"), tmp_path / "cache", known=known)
+    library = CMULibrary(one, two, cache_dir=tmp_path / "cache", known=known)
     assert library.folders == (one, two)
     store(two, files)
     assert library.where("01_02") == str(two / AMC)
@@ -210,7 +209,9 @@ def test_of_a_recording_with_interpolated_copies_any_is_read(trial, server, know
     assert amc not in registered_digests()
     server.files = {asf: files[ASF], amc: files[AMC]}
     folder, cache = tmp_path / "data", tmp_path / "cache"
-    library = CMULibrary(folder, cache, base_url=server.url, known={asf: known[ASF]}, retries=0)
+    library = CMULibrary(
+        folder, cache_dir=cache, base_url=server.url, known={asf: known[ASF]}, retries=0
+    )
     with pytest.warns(UnregisteredDigestWarning, match=f"{amc}; .*not pinned"):
         library.fetch(key)
     store(folder, {amc: files[AMC].replace(b"shin 42", b"shin 43")})

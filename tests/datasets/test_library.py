@@ -12,7 +12,7 @@ class Tables(Library):
     """Comma-separated values of two channels at ten frames a second."""
 
     def where(self, key):
-        file = self.data_dir / f"{key}.csv"
+        file = self.folders[0] / f"{key}.csv"
         return str(file) if file.exists() else ""
 
     def recording(self, key):
@@ -38,7 +38,7 @@ def test_the_packages_own_libraries_are_found_and_built_like_any_other(tmp_path)
     for point in points:
         library = point.load()(tmp_path)
         assert isinstance(library, Library)
-        assert library.data_dir == tmp_path
+        assert library.folders == (tmp_path,)
 
 
 def test_an_archive_reads_it(archive, file):

@@ -36,12 +36,12 @@ def _jobs(size, folds):
     task, case = SIZES[size]
     bench.load_plugin(PLUGIN)
     request = bench.Request(tasks=(task,), cases=(case,), models=("no-op",), folds=folds)
-    return bench.plan(request, bench.archive_at(None))
+    return bench.plan(request, bench.archive_at())
 
 
 def _config():
     about = bench.provenance(["mocapbench"], 1)
-    return bench.WorkerConfig(None, (PLUGIN,), 600.0, resource.RLIM_INFINITY, 1, about)
+    return bench.WorkerConfig((), (PLUGIN,), 600.0, resource.RLIM_INFINITY, 1, about)
 
 
 @pytest.fixture
@@ -49,8 +49,8 @@ def stages(tmp_path, request):
     """Return what is done for one job, by name."""
     (job,) = _jobs(request.getfixturevalue("size"), 1)
     config, spool, store = _config(), Spool(tmp_path), bench.RunDirectory.create(tmp_path / "run")
-    libraries = bench.archive_at(None).libraries
-    spool.add(bench.archive_at(None), job.digests)
+    libraries = bench.archive_at().libraries
+    spool.add(bench.archive_at(), job.digests)
     archive = SpooledArchive(libraries, spool, job.digests)
     problem = bench.TASKS.get(job.address.task).case(job.address.case).problem
     outcome = evaluate.evaluate(Work(job, None), config, archive)

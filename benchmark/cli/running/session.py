@@ -106,7 +106,7 @@ class Session:
             raise
 
     def _write_report(self, records: Sequence[Record], about: dict[str, str]) -> None:
-        archive = bench.archive_at(self.config.data_dir)
+        archive = bench.archive_at(*self.config.folders)
         write_report(records, about, self.store, archive, self._page, self.console)
 
     def _say_how_it_ended(self, records: Sequence[Record]) -> None:

@@ -46,7 +46,7 @@ class WorkerState:
         self._spool.folder.mkdir()
         config = replace(
             config,
-            data_dir=None,
+            folders=(),
             plugins=write_plugin_files(files, config.plugins, folder / "plugins"),
             provenance={**config.provenance, **machine_facts()},
         )

@@ -63,7 +63,7 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
         The recordings that the run has read.
     """
     job, started = work.job, time.perf_counter()
-    libraries = _libraries(config.data_dir, config.plugins)
+    libraries = _libraries(config.folders, config.plugins)
     _add_tasks(config.task_files)
     _import_code(job.model, job.address.task, job.metrics)
     with suppress(Exception):  # of what fails, `evaluate` gives the reason
@@ -97,10 +97,10 @@ def _add_tasks(files: tuple[TaskFile, ...]) -> None:
 
 
 @cache
-def _libraries(data_dir: Path | None, plugins: tuple[Path, ...]) -> Mapping[str, Library]:
+def _libraries(folders: tuple[Path, ...], plugins: tuple[Path, ...]) -> Mapping[str, Library]:
     """Load the plug-ins, and return the libraries of recordings, theirs included."""
     load_plugins_once(plugins)
-    return archive_at(data_dir).libraries
+    return archive_at(*folders).libraries
 
 
 @cache

@@ -30,7 +30,7 @@ def pages(reference: Path) -> Mapping[str, Texts]:
         The folder of reference values, which holds a folder a profile.
     """
     today = read_today(reference)
-    found, archive = places(today), archive_at(None)
+    found, archive = places(today), archive_at()
     return {
         "tasks": {
             "index": render("index", title="Tasks", groups=task_groups()),

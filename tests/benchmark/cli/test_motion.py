@@ -80,7 +80,7 @@ def test_an_amc_file_has_the_stored_prediction(cli, fills, stored, tmp_path):
     columns = [table.channels.index(name) for name in angles]
     np.testing.assert_array_equal(read.values[mask], stored[:, columns][mask])
     skeleton = AcclaimFormat().skeleton(tmp_path / "w.amc")
-    assert skeleton.parents == archive_at(None).skeleton("gait:01_01").parents
+    assert skeleton.parents == archive_at().skeleton("gait:01_01").parents
     assert JointAngles(skeleton).positions(read).shape[1] == len(skeleton.segments)
 
 

@@ -49,9 +49,9 @@ def run(tmp_path):
         store = RunDirectory.create(tmp_path / name)
         about = {**provenance(["test"], threads=1), "profile": "smoke", "seed": "0"}
         unlimited = resource.RLIM_INFINITY
-        config = WorkerConfig(None, (), 60.0, unlimited, 1, about)
+        config = WorkerConfig((), (), 60.0, unlimited, 1, about)
         request = Request("smoke", ("toy-interpolation-1",), (model,), folds=n_folds)
-        archive = archive_at(None)
+        archive = archive_at()
         jobs = plan(request, archive)
         for job in jobs:
             record = evaluate(Work(job, None), config, archive).record

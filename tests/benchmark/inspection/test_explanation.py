@@ -51,10 +51,10 @@ from mocapbench.reports import TaskPage
 
 class Waves(Library):
     def where(self, key):
-        return str(self.data_dir / key) if (self.data_dir / key).is_file() else ""
+        return str(self.folders[0] / key) if (self.folders[0] / key).is_file() else ""
 
     def recording(self, key):
-        values = np.frombuffer((self.data_dir / key).read_bytes(), dtype=np.uint8)
+        values = np.frombuffer((self.folders[0] / key).read_bytes(), dtype=np.uint8)
         return Recording(key, np.arange(30) / 30, values[:, None].astype(float), ["wave"], [""])
 
 
@@ -289,7 +289,7 @@ def test_of_jobs_that_share_predictions_one_fits(world):
 
 @pytest.mark.slow
 def test_thousands_of_jobs_are_explained_in_a_few_lines(world):
-    archive, metric = archive_at(None), METRICS.get("mse")
+    archive, metric = archive_at(), METRICS.get("mse")
     jobs = plan(Request("quick", metrics=("mse",)), archive)
     store = RunDirectory.create(world.out)
     store.keep_keys({job.key: (job.address, job.parts) for job in jobs})

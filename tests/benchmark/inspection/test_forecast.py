@@ -24,7 +24,7 @@ TASKS = ("toy-interpolation-1", "missing-frames")
 
 
 def jobs(models, tasks=TASKS, profile="quick", folds=2):
-    return plan(Request(profile, tasks, models, folds=folds), archive_at(None))
+    return plan(Request(profile, tasks, models, folds=folds), archive_at())
 
 
 def done(store, job, seconds):
@@ -69,7 +69,7 @@ def test_records_of_the_entrant_go_first_and_what_is_done_takes_no_time(tmp_path
 
 def test_jobs_that_share_a_fit_count_as_one(tmp_path):
     request = Request("smoke", ("missing-frames",), ("knn",), ("synthetic*",), folds=3)
-    first, *rest = planned = plan(request, archive_at(None))
+    first, *rest = planned = plan(request, archive_at())
     now, _ = work_of(planned, tmp_path / "none", "smoke")
     assert steps_of(planned, tmp_path / "none") == {Step.FIT: 1, Step.PREDICT: len(rest)}
     assert len(now) == 1

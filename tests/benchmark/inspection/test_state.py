@@ -78,7 +78,7 @@ def test_the_most_alike_jobs_count(write_run, tmp_path, row, expected):
 def test_what_is_left_takes_as_long_as_a_dry_run_says(tmp_path, done):
     """Also where the jobs that are left are of models that the run directory does not know."""
     request = Request("quick", ("toy-interpolation-1",), ("linear", "mohgp"), folds=2)
-    planned, store = plan(request, archive_at(None)), RunDirectory.create(tmp_path / "run")
+    planned, store = plan(request, archive_at()), RunDirectory.create(tmp_path / "run")
     for job in planned:
         if job.address.label in done and job.address.fold == 0:
             store.save(job.record(Status.OK, fit_seconds=0.01, predict_seconds=0.01))

@@ -58,7 +58,7 @@ def test_another_program_gives_no_options(line):
 @pytest.mark.parametrize("task", TASKS.names())
 def test_the_shell_gives_the_jobs_of_the_cell_and_no_other(task):
     profiles = [name for name in ("smoke", "quick", "paper") if name in TASKS.get(task).profiles]
-    archive, request = archive_at(None), Request(profiles[0], tasks=(task,))
+    archive, request = archive_at(), Request(profiles[0], tasks=(task,))
     cells = {}
     for job in plan(request, archive):
         cells.setdefault((job.address.case, job.address.label), []).append(job)

@@ -46,7 +46,7 @@ def test_windows_are_stacked_and_joints_averaged_over_folds():
         _record(1, "knn", gap, [3.0] * 30 + [None]),
         _record(0, "nn", [None] * 12, [2.0] * N_JOINTS),
     ]
-    parts = error_parts(records, archive_at(None))
+    parts = error_parts(records, archive_at())
     cell = (TASK.name, CASE, "knn")
     assert parts.metrics == {TASK.name: "rms_per_frame"}
     assert {key: windows.shape for key, windows in parts.along_gap.items()} == {cell: (2, 20)}
@@ -56,8 +56,8 @@ def test_windows_are_stacked_and_joints_averaged_over_folds():
 
 def test_the_body_is_that_of_a_recording_with_as_many_joints():
     whole = [_record(0, "knn", [1.0], [1.0] * N_JOINTS)]
-    pose = error_parts(whole, archive_at(None)).rest_poses[TASK.name]
+    pose = error_parts(whole, archive_at()).rest_poses[TASK.name]
     assert len(pose) == N_JOINTS
     assert np.ptp(pose["y"]) > 100.0  # it stands upright, in centimetres
     fewer = [_record(0, "knn", [1.0], [1.0] * 5)]
-    assert error_parts(fewer, archive_at(None)).rest_poses == {}
+    assert error_parts(fewer, archive_at()).rest_poses == {}

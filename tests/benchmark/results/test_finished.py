@@ -32,12 +32,12 @@ def run(made, tmp_path):
 
 
 def _is_finished(run, asked=ASKED):
-    archive = bench.archive_at(None)
+    archive = bench.archive_at()
     return bool(finished.finished_records(bench.RunDirectory(run.path), asked, archive))
 
 
 def test_its_records_come_in_the_order_of_the_tables(run):
-    records = finished.finished_records(run, ASKED, bench.archive_at(None))
+    records = finished.finished_records(run, ASKED, bench.archive_at())
     assert [record.key for record in records] == run.load_plan()["keys"]
     assert [r.to_json() for r in records] == [r.to_json() for r in run.planned()]
 

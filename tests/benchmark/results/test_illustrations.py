@@ -39,7 +39,7 @@ def _change_page(**changes):
 
 
 def test_a_report_shows_what_was_filled(finished, store):
-    motion, illustration = illustrations(store.records(), store, archive_at(None))
+    motion, illustration = illustrations(store.records(), store, archive_at())
     assert set(motion.motions) == {"nn", "trivial"}
     assert motion.beside == [*motion.motions][1]
     assert illustration.task == "upper-body-missing"
@@ -50,12 +50,12 @@ def test_a_report_shows_what_was_filled(finished, store):
 
 def test_predictions_that_are_gone_are_not_shown(store):
     records = [Record(**{**vars(record), "fit_key": "gone"}) for record in store.records()]
-    assert illustrations(records, store, archive_at(None)) == ()
+    assert illustrations(records, store, archive_at()) == ()
 
 
 def test_a_case_that_no_page_names_is_not_shown(store):
     _change_page(illustrated=())
-    assert illustrations(store.records(), store, archive_at(None)) == ()
+    assert illustrations(store.records(), store, archive_at()) == ()
 
 
 def test_the_figures_are_those_that_the_page_declares(store):
@@ -64,13 +64,13 @@ def test_the_figures_are_those_that_the_page_declares(store):
         partial(draw_filled_channels, channels=names) for names in (channels[:1], channels)
     )
     _change_page(figures=(draw_gap_error, one, all_three))
-    one, three = illustrations(store.records(), store, archive_at(None))
+    one, three = illustrations(store.records(), store, archive_at())
     assert [panel.title for panel in one.axes] == list(channels[:1])
     assert [panel.title for panel in three.axes] == list(channels)
 
 
 def test_recordings_that_are_gone_leave_the_report_without_them(store, monkeypatch):
-    archive = archive_at(None)
+    archive = archive_at()
 
     def unavailable(uri):
         raise RecordingUnavailable(uri, "fetch it")

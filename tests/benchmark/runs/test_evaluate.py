@@ -16,7 +16,7 @@ from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.runs.request import Request
 from mocapbench.metrics import Score
 
-CONFIG = WorkerConfig(None, (), 600.0, resource.RLIM_INFINITY, 1, {})
+CONFIG = WorkerConfig((), (), 600.0, resource.RLIM_INFINITY, 1, {})
 
 
 def _raises(outcome):
@@ -88,7 +88,7 @@ def record(monkeypatch):
         fields = {"statistic": _nothing, **fields}
         metric = replace(METRICS.get("mse"), name="mine", title="Mine", **fields)
         monkeypatch.setattr(METRICS, "_added", {**METRICS._added, "mine": metric})
-        task, archive = "toy-interpolation-1", archive_at(None)
+        task, archive = "toy-interpolation-1", archive_at()
         request = Request("smoke", (task,), ("trivial",), metrics=("mine",), folds=1)
         job = plan(request, archive)[0]
         return evaluate(Work(job, None), CONFIG, archive).record
@@ -139,7 +139,7 @@ def job_record(monkeypatch):
             for name, statistic in statistics.items()
         }
         monkeypatch.setattr(METRICS, "_added", {**METRICS._added, **added})
-        task, archive = "toy-interpolation-1", archive_at(None)
+        task, archive = "toy-interpolation-1", archive_at()
         request = Request("smoke", (task,), ("trivial",), metrics=("mse", *added), folds=1)
         return evaluate(Work(plan(request, archive)[0], None), CONFIG, archive).record
 

@@ -70,7 +70,7 @@ def test_one_change_is_one_part(fitted, scored, data):
 @pytest.mark.slow
 @pytest.mark.parametrize("profile", ["smoke", "quick"])
 def test_within_a_row_each_key_has_its_own_parts(profile):
-    archive = archive_at(None)
+    archive = archive_at()
     jobs = [j for seed in (0, 1) for j in plan(Request(profile, seed=seed), archive)]
     assert len({(job.address, *job.parts.items()) for job in jobs}) == len(
         {(job.address, job.key) for job in jobs}
@@ -120,6 +120,6 @@ def test_a_part_stands_once_however_many_keys_have_it():
 
 def test_the_folds_of_a_row_share_what_their_keys_cover():
     request = Request("smoke", ("toy-interpolation-1",), ("trivial", "knn"), folds=20)
-    jobs = plan(request, archive_at(None))
+    jobs = plan(request, archive_at())
     rows = {job.address._replace(fold=None) for job in jobs}
     assert len({id(job.parts) for job in jobs}) == len(rows) < len(jobs)

@@ -364,10 +364,10 @@ class Mine(Trivial):
 
 class Waves(Library):
     def where(self, key):
-        return str(self.data_dir / key) if (self.data_dir / key).is_file() else ""
+        return str(self.folders[0] / key) if (self.folders[0] / key).is_file() else ""
 
     def recording(self, key):
-        values = np.frombuffer((self.data_dir / key).read_bytes(), dtype=np.uint8)
+        values = np.frombuffer((self.folders[0] / key).read_bytes(), dtype=np.uint8)
         return Recording(key, np.arange(30) / 30, values[:, None].astype(float), ["wave"], [""])
 
 
@@ -446,7 +446,7 @@ def test_a_cases_parameters_change_the_key_of_a_model_that_has_them():
         case = dataclasses.replace(task.cases[0], parameters=parameters)
         TASKS.add(task.name, dataclasses.replace(task, cases=(case,)))
         request = Request(tasks=(task.name,), cases=(case.name,), models=("k-means",), folds=1)
-        (job,) = plan(request, archive_at(None))
+        (job,) = plan(request, archive_at())
         return job.fit_key
 
     assert planned(n_styles=2) != planned(n_styles=3)
@@ -480,7 +480,7 @@ def test_the_order_of_registration_changes_no_key(planned, tmp_path):
 def test_the_order_of_metrics_changes_no_key():
     toy = {"tasks": (TASK.name,), "models": ("trivial",), "cases": ("test 1",), "folds": 1}
     one, other = (
-        plan(Request(**toy, metrics=metrics), archive_at(None))
+        plan(Request(**toy, metrics=metrics), archive_at())
         for metrics in (("mse", "smse"), ("smse", "mse"))
     )
     assert one == other
@@ -491,7 +491,7 @@ def test_keys_are_the_same_in_every_process():
     script = (
         "from mocapbench.benchmark import Request, archive_at, plan\n"
         f"request = Request('smoke', tasks=({TASK.name!r}, 'toy-synthesis'))\n"
-        "print(*((job.key, job.fit_key) for job in plan(request, archive_at(None))))\n"
+        "print(*((job.key, job.fit_key) for job in plan(request, archive_at())))\n"
     )
     printed = {
         subprocess.run(

@@ -13,11 +13,11 @@ from mocapbench.benchmark.tasks.people import NAMES
 
 def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
     assert (
-        required_recordings(Request(tasks=("missing-frames",), models=("mohgp",)), archive_at(None))
+        required_recordings(Request(tasks=("missing-frames",), models=("mohgp",)), archive_at())
         == ()
     )
     wanted = required_recordings(
-        Request(tasks=("missing-frames",), models=("cubic-spline",)), archive_at(None)
+        Request(tasks=("missing-frames",), models=("cubic-spline",)), archive_at()
     )
     assert "cmu:35_03" in wanted
     assert len(set(wanted)) == len(wanted)
@@ -27,7 +27,7 @@ def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
     "profile", ["smoke", "quick", pytest.param("paper", marks=pytest.mark.slow)]
 )
 def test_every_job_of_a_profile_has_a_key_of_its_own_and_every_problem_a_fit(profile):
-    jobs = plan(Request(profile), archive_at(None))
+    jobs = plan(Request(profile), archive_at())
     assert len({job.key for job in jobs}) == len(jobs)
     assert len({job.fit_key for job in jobs}) == len(
         {(job.seeds, job.address.label) for job in jobs}
@@ -35,7 +35,7 @@ def test_every_job_of_a_profile_has_a_key_of_its_own_and_every_problem_a_fit(pro
 
 
 def test_a_profile_leaves_out_what_runs_only_when_asked_for():
-    archive = archive_at(None)
+    archive = archive_at()
     quick = {job.address.label for job in plan(Request(tasks=("missing-frames",)), archive)}
     asked = Request(tasks=("missing-frames",), models=("gpdm-two-stage-window",))
     assert "gpdm-two-stage-window" not in quick
@@ -70,7 +70,7 @@ def test_two_rows_of_one_name_are_refused(complaint, changes):
     TASKS.add("mine", dataclasses.replace(TASK, name="mine", **changes))
     expected = f"expected every {kind} under a name of its own, got '{name}' twice"
     with pytest.raises(UsageError, match=expected):
-        plan(Request("smoke", tasks=("mine",)), archive_at(None))
+        plan(Request("smoke", tasks=("mine",)), archive_at())
 
 
 @pytest.mark.parametrize("uri", ["nowhere:01_01", "01_01", "cmu:"])
@@ -80,7 +80,7 @@ def test_an_address_that_no_library_can_have_is_refused_by_task_and_case(uri):
     request = Request("paper", tasks=("mine",), cases=(FIRST.name,))
     for ask in (plan, required_recordings):
         with pytest.raises(UsageError, match=f"task 'mine', case '{FIRST.name}': .* got '{uri}'"):
-            ask(request, archive_at(None))
+            ask(request, archive_at())
 
 
 PAGE = TASK.page
@@ -96,16 +96,16 @@ def test_what_could_not_be_run_or_shown_is_refused_before_the_run(complaint, cha
     TASKS.add("mine", dataclasses.replace(TASK, name="mine", **changes))
     for ask in (plan, required_recordings):
         with pytest.raises(UsageError, match=f"task 'mine'.*{complaint}"):
-            ask(Request("smoke", tasks=("mine",)), archive_at(None))
+            ask(Request("smoke", tasks=("mine",)), archive_at())
 
 
 def test_a_recording_as_the_database_writes_it_finds_the_cases_on_it():
     chosen = Request(tasks=("missing-frames",), models=("trivial",), cases=("35_03",), folds=1)
-    cases = {job.address.case for job in plan(chosen, archive_at(None))}
+    cases = {job.address.case for job in plan(chosen, archive_at())}
     assert cases == {"35-03 four-walkers", "35-03 three-walkers"}
 
 
 def test_a_label_names_its_entrant_alone_though_others_have_a_model_of_that_name():
     request = Request("smoke", tasks=("missing-frames",), models=("cyclic-alignment",))
-    labels = {job.address.label for job in plan(request, archive_at(None))}
+    labels = {job.address.label for job in plan(request, archive_at())}
     assert labels == {"cyclic-alignment"}

@@ -11,7 +11,7 @@ from mocapbench.benchmark.runs.request import Request, entrants, nameable_entran
 
 
 def plan_jobs(*models, task="toy-interpolation-1"):
-    return plan(Request("smoke", (task,), models, folds=1), archive_at(None))
+    return plan(Request("smoke", (task,), models, folds=1), archive_at())
 
 
 def test_every_calibration_is_of_a_model_that_is_registered():

@@ -28,7 +28,7 @@ NAMES = TASKS.names()
 
 def _pose(task, case, fold=0, root=0):
     address = Address(task.name, task.version, case.problem_name, fold)
-    return case.problem(Seeds(root, address), archive_at(None))
+    return case.problem(Seeds(root, address), archive_at())
 
 
 def _smoke(name):
@@ -73,7 +73,7 @@ def test_cases_of_one_problem_differ_in_their_references_alone(name):
 def test_models_see_the_same_in_cases_of_one_problem(name, one, other):
     task = TASKS.get(name)
     cases = [task.case(one), task.case(other)]
-    if not all(archive_at(None).available(uri) for case in cases for uri in case.recordings):
+    if not all(archive_at().available(uri) for case in cases for uri in case.recordings):
         pytest.skip("MOCAPBENCH_DATA names no recordings, or not these")
     seen = [replace(_pose(task, case), references=()) for case in cases]
     assert joblib.hash(seen[0]) == joblib.hash(seen[1])

@@ -55,7 +55,7 @@ def test_pairs_are_those_of_the_four_tables():
 @pytest.mark.recordings
 @pytest.mark.skipif("MOCAPBENCH_DATA" not in os.environ, reason="MOCAPBENCH_DATA names nothing")
 def test_real_recordings_are_as_similar_as_they_were(similarity, num_regression):
-    available = archive_at(None).available
+    available = archive_at().available
     real = [case for case in TASK.cases if not case.synthetic]
     scores = [similarity(case.name) for case in real if all(map(available, case.recordings))]
     values = {name: [each[name] for each in scores] for name in ("mcc", "mlc")}

@@ -39,7 +39,7 @@ def spin(subject, take, n_frames):
 
 def pose(folder, make_take, case):
     file = write_zip(folder / "lafan1.zip", make_take, LENGTHS)
-    library = LaFAN1Library(folder, sha256(file.read_bytes()).hexdigest())
+    library = LaFAN1Library(folder, expected=sha256(file.read_bytes()).hexdigest())
     seeds = Seeds(0, Address("lafan1", 1, case, 0))
     return TASK.case(case).problem(seeds, Archive({"lafan1": library}))
 

@@ -160,7 +160,7 @@ def test_what_is_published_of_a_case_is_the_mean_over_its_masks():
 def test_without_the_recordings_their_cases_are_missing(tmp_path, monkeypatch):
     monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
     monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path))
-    jobs = plan(Request("paper", ("marker-masks",), ("linear",), folds=1), archive_at(None))
+    jobs = plan(Request("paper", ("marker-masks",), ("linear",), folds=1), archive_at())
     missing = {job.address.case: job.missing for job in jobs}
     assert missing["3 markers"] == ("cmu:135_02.c3d",)
     assert missing["85_02 real gaps"] == ("cmu:85_02.c3d",)

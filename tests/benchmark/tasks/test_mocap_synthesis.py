@@ -12,7 +12,7 @@ ROWS = [(name, case.name) for name in NAMES for case in TASKS.get(name).cases]
 
 @pytest.fixture(scope="module")
 def jobs():
-    return plan(Request(profile="paper", tasks=NAMES), archive_at(None))
+    return plan(Request(profile="paper", tasks=NAMES), archive_at())
 
 
 @pytest.fixture
@@ -20,7 +20,7 @@ def pose_or_skip(posed):
     """Return a function that poses a problem, or skips the test if its recordings are not here."""
 
     def pose(name, case):
-        if not all(map(archive_at(None).available, TASKS.get(name).case(case).recordings)):
+        if not all(map(archive_at().available, TASKS.get(name).case(case).recordings)):
             pytest.skip("MOCAPBENCH_DATA names no recordings, or not these")
         return posed(name, case)
 
@@ -92,7 +92,7 @@ def test_figures_are_named_after_what_models_learn_from(pose_or_skip, cli, tmp_p
 @pytest.mark.recordings
 def test_frames_are_those_of_the_footnotes(pose_or_skip):
     problem = pose_or_skip("soccer-synthesis", "10(6)")
-    whole = archive_at(None).recording("cmu:10_06").select(THESIS_CHANNELS).values
+    whole = archive_at().recording("cmu:10_06").select(THESIS_CHANNELS).values
     np.testing.assert_array_equal(problem.train[1].values[[0, -1]], whole[[130, 565]])
     np.testing.assert_array_equal(problem.references[0][[0, -1]], whole[[130, 361]])
     assert problem.times[-1] == pytest.approx(435 / 120)

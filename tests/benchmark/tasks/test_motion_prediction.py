@@ -28,7 +28,7 @@ N_KEPT = 166  # of 332 rows, the rest pose included
 
 def pose(name, case, archive=None):
     task = TASKS.get(name)
-    return task.case(case).problem(Seeds(0, Address(name, 1, case, 0)), archive or archive_at(None))
+    return task.case(case).problem(Seeds(0, Address(name, 1, case, 0)), archive or archive_at())
 
 
 def write_rows(folder, key, rows):
@@ -179,7 +179,7 @@ def test_where_a_training_file_is_absent_the_case_is_missing_and_names_it(walks,
 
 def test_all_actions_share_what_is_learnt():
     request = Request("paper", ("motion-prediction",), ("ridge-forecast",), ("* 35 files",))
-    jobs = plan(request, archive_at(None))
+    jobs = plan(request, archive_at())
     assert len(jobs) == 8
     assert len({job.training_key for job in jobs}) == 1
 

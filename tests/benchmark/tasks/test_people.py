@@ -31,7 +31,7 @@ def hidden_runs(problem):
 
 def pose(task, case, fold=0, archive=None):
     address = Address(task.name, task.version, case, fold)
-    return task.case(case).problem(Seeds(0, address), archive or archive_at(None))
+    return task.case(case).problem(Seeds(0, address), archive or archive_at())
 
 
 @pytest.mark.parametrize("name", TASK_NAMES)
@@ -144,7 +144,7 @@ class Perturbed(Archive):
     """An archive in which values of one recording are others, where a mask says so."""
 
     def __init__(self, uri, hidden):
-        super().__init__(archive_at(None).libraries)
+        super().__init__(archive_at().libraries)
         self.uri, self.hidden = uri, hidden
 
     def recording(self, uri):
@@ -226,7 +226,7 @@ def test_predictions_of_all_models_do_not_change_when_hidden_values_do(name, reg
 
 def planned(case, folds, model="nn", archive=None):
     request = Request("paper", ("lost-limb",), (model,), (case,), ("mpjpe",), folds)
-    return plan(request, archive or archive_at(None))
+    return plan(request, archive or archive_at())
 
 
 def test_models_of_strangers_are_fitted_once_a_group_and_number_for_all_lengths():
@@ -248,7 +248,7 @@ def test_a_person_whose_files_are_absent_is_missing_and_the_others_are_not():
         def where(self, key):
             return "" if key.startswith("102_") else super().where(key)
 
-    archive = Archive({**archive_at(None).libraries, "gait": WithoutTwo()})
+    archive = Archive({**archive_at().libraries, "gait": WithoutTwo()})
     alone = planned("synthetic 1 s alone", 30, archive=archive)
     assert [job.address.fold for job in alone if job.missing] == [1]
     own = planned("synthetic 1 s own", 30, archive=archive)

@@ -22,7 +22,7 @@ PRINTED = {
 @pytest.fixture(scope="module", params=["right leg", "upper body"])
 def real(request, posed):
     case = TASK.case(request.param)
-    if not all(map(archive_at(None).available, case.recordings)):
+    if not all(map(archive_at().available, case.recordings)):
         pytest.skip("MOCAPBENCH_DATA names no recordings, or not all 32 of subject 35")
     return case.name, posed(NAME, case.name)
 

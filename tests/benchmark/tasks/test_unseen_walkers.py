@@ -53,7 +53,7 @@ def test_references_are_the_beginnings_of_walks_then_later_frames_of_them(posed,
     assert 2 <= len(problem.references) <= N_REFERENCES
     assert {reference.shape for reference in problem.references} == {(N_FRAMES, 50)}
     walks = [*list_walkers(people).values()][fold]
-    archive = archive_at(None)
+    archive = archive_at()
     beginnings = [archive.recording(uri).values[:: people.rate(uri) // 30] for uri in walks]
     n_long = sum(len(values) >= N_FRAMES for values in beginnings[:N_REFERENCES])
     first, later = problem.references[0], problem.references[n_long:][:1]
@@ -66,7 +66,7 @@ def test_a_fold_poses_no_problem_of_another_person():
     task = TASKS.get(NAME)
     problems = [
         task.case("synthetic 3 walks").problem(
-            Seeds(0, Address(NAME, task.version, "synthetic 3 walks", fold)), archive_at(None)
+            Seeds(0, Address(NAME, task.version, "synthetic 3 walks", fold)), archive_at()
         )
         for fold in (0, 1)
     ]

@@ -20,7 +20,7 @@ def make_take(subject, take, n_frames):
 
 def open_library(folder):
     digest = sha256((folder / "lafan1.zip").read_bytes()).hexdigest()
-    return LaFAN1Library(folder, digest)
+    return LaFAN1Library(folder, expected=digest)
 
 
 @pytest.fixture(scope="module")

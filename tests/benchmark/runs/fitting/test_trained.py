@@ -14,7 +14,7 @@ from mocapbench.benchmark.runs.job import Work, WorkerConfig
 from mocapbench.benchmark.runs.plan import plan
 from mocapbench.benchmark.runs.request import Request, entrants
 
-CONFIG = WorkerConfig(None, (), 600.0, resource.RLIM_INFINITY, 1, {})
+CONFIG = WorkerConfig((), (), 600.0, resource.RLIM_INFINITY, 1, {})
 TASK = "missing-frames"
 COSTS = {"fit_seconds", "predict_seconds", "peak_memory_mb", "arrays"}
 
@@ -50,7 +50,7 @@ def jobs():
     def jobs(label, *cases):
         cases = cases or ("synthetic 1", "synthetic 2")
         request = Request("smoke", (TASK,), (label,), cases, folds=2)
-        found = plan(request, archive_at(None))  # other entrants of the model called so, too
+        found = plan(request, archive_at())  # other entrants of the model called so, too
         return [_brief(job) for job in found if job.address.label == label]
 
     return jobs
@@ -63,7 +63,7 @@ def drawn(monkeypatch):
 
 
 def _evaluated(job, trained=None):
-    ended = evaluate(Work(job, None, trained=trained), CONFIG, archive_at(None))
+    ended = evaluate(Work(job, None, trained=trained), CONFIG, archive_at())
     assert ended.record.message == ""
     return ended
 
@@ -114,7 +114,7 @@ def test_a_model_of_other_recordings_is_not_used(jobs, drawn):
 def test_it_remains_where_a_problem_then_fails(jobs, drawn, monkeypatch):
     job, *_ = jobs(drawn)
     monkeypatch.setattr(Drawn, "impute", lambda *_: 1 / 0)
-    ended = evaluate(Work(job, None), CONFIG, archive_at(None))
+    ended = evaluate(Work(job, None), CONFIG, archive_at())
     assert "ZeroDivisionError" in ended.record.message
     assert "1 / 0" in ended.record.traceback
     assert ended.trained is not None
@@ -128,7 +128,7 @@ def test_it_remains_where_a_problem_then_fails(jobs, drawn, monkeypatch):
 def test_the_key_of_a_fitted_model_covers_what_it_follows_from(change):
     asked = {"models": ("gplvm-linear",), "cases": ("synthetic 1",), "tasks": (TASK,), "seed": 0}
     one, other = (
-        plan(Request(**{"profile": "smoke", **asked, **changes}), archive_at(None))[0]
+        plan(Request(**{"profile": "smoke", **asked, **changes}), archive_at())[0]
         for changes in ({}, change)
     )
     assert one.training_key != other.training_key
@@ -137,5 +137,5 @@ def test_the_key_of_a_fitted_model_covers_what_it_follows_from(change):
 def test_a_training_key_is_shared_by_no_other_training(jobs):
     (walker,) = {job.training_key for job in jobs("knn")}
     request = Request("smoke", ("golf-swings",), ("knn",), ("synthetic",), folds=2)
-    (swing,) = {job.training_key for job in plan(request, archive_at(None))}
+    (swing,) = {job.training_key for job in plan(request, archive_at())}
     assert walker != swing

@@ -69,7 +69,7 @@ def _fit(job, problem):
 def stored(request, posed):
     """Return a task, the problem of its smoke profile, and the arrays of each entrant's fit."""
     task = TASKS.get(request.param)
-    jobs = plan(Request("smoke", (task.name,), ENTRANTS[task.name], folds=1), archive_at(None))
+    jobs = plan(Request("smoke", (task.name,), ENTRANTS[task.name], folds=1), archive_at())
     (case,) = {job.address.case for job in jobs}
     assert case in task.page.illustrated
     problem = posed(task.name, case)
@@ -94,7 +94,7 @@ def test_every_figure_of_a_page_draws(stored):
     task, problem, fits = stored
     solutions = {label: problem.from_arrays(a) for label, a in fits.items()}
     published = task.page.published_models
-    solved = Solved(task.name, problem, solutions, fits, published, archive=archive_at(None))
+    solved = Solved(task.name, problem, solutions, fits, published, archive=archive_at())
     pictures = [list(figure(solved)) for figure in task.page.figures]
     assert all(pictures)
     shown = [picture for of_figure in pictures for picture in of_figure]

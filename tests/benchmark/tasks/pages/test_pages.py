@@ -107,7 +107,7 @@ def test_the_kind_is_that_of_the_problem(smoke):
 
 def test_another_page_changes_no_problem_and_no_key(posed, smoke):
     task, case, problem = smoke
-    request, archive = Request("smoke", (task.name,)), archive_at(None)
+    request, archive = Request("smoke", (task.name,)), archive_at()
     jobs = plan(request, archive)
     TASKS.add(task.name, replace(task, page=ANOTHER))
     assert plan(request, archive) == jobs
