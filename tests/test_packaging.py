@@ -4,12 +4,14 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 import tarfile
 import tomllib
 import zipfile
 from pathlib import Path
 
 import pytest
+from package_index import KINDS, serve_index, try_distribution
 
 from mocapbench import __version__
 
@@ -19,7 +21,6 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 METADATA = PROJECT["project"]
 CACHES = shutil.ignore_patterns(
     *(".git", ".tox", ".venv", ".*_cache", "__pycache__", "*.egg-info", "build", "dist"),
-    *("_build", "generated"),  # the site
 )
 BUILD = "import sys; from hatchling import build; build.build_{}(sys.argv[1])"
 
@@ -65,9 +66,9 @@ def files_below(root, *folders):
 
 
 def left_out(folder, names):
-    """Return what a copy of the source tree lacks: caches, and what runs of the example leave."""
-    runs = {"results"} if Path(folder).name == "third-party" else set()
-    return {*CACHES(folder, names), *runs.intersection(names)}
+    """Return what a copy of the source tree lacks: caches, runs of the example, and the site."""
+    made = {"third-party": {"results"}, "docs": {"_build", "generated"}, "api": {"generated"}}
+    return {*CACHES(folder, names), *made.get(Path(folder).name, set()).intersection(names)}
 
 
 @pytest.fixture(scope="module")
@@ -116,7 +117,7 @@ def test_the_source_distribution_holds_what_its_tests_need(tree, sdist):
     with tarfile.open(sdist) as archive:
         held = {member.name.partition("/")[2] for member in archive if member.isfile()}
     top = {"CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "LICENSE", "README.md", "tox.ini"}
-    top |= {"action.yml", ".pre-commit-config.yaml", ".pre-commit-hooks.yaml"}
+    top |= {"Dockerfile", "action.yml", ".pre-commit-config.yaml", ".pre-commit-hooks.yaml"}
     needed = files_below(tree, *FOLDERS, "src", "tests", "docs", "examples", "conda", ".ci")
     assert {*top, "pyproject.toml", *needed} - held == set()
     assert {"tests/goldens/metrics/tolerances.toml", "tests/lowest.txt", ".ci/run"} <= held
@@ -146,6 +147,36 @@ def test_the_wheel_holds_the_packages_and_their_data_alone(tree, wheel):
     assert {f"mocapbench/reports/page/{part}" for part in parts} <= held
     assert "mocapbench/benchmark/filling/costs.csv" in held
     assert not any("/test_" in name for name in held)
+
+
+@pytest.mark.slow
+def test_what_a_container_is_built_from_makes_the_same_wheel(tree, wheel, tmp_path):
+    copies = re.findall(r"^COPY (?!--)(.+) (\S+)$", (tree / "Dockerfile").read_text(), re.MULTILINE)
+    for names, target in copies:
+        for path in map(tree.joinpath, names.split()):
+            if path.is_dir():
+                shutil.copytree(path, tmp_path / "clone" / target, symlinks=True)
+            else:
+                (tmp_path / "clone" / target).mkdir(parents=True, exist_ok=True)
+                shutil.copy(path, tmp_path / "clone" / target)
+    assert files_of(build("wheel", tmp_path / "clone")) == files_of(wheel)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_both_distributions_install_from_an_index_and_run_without_the_repository(
+    sdist, wheel, tmp_path, kind
+):
+    """Dependencies are lent by this environment; `tox run -e release` takes them from an index."""
+    alone = ("--no-deps", "--ignore-installed", "--no-build-isolation")
+    with serve_index([wheel, sdist]) as address:
+        found = try_distribution(
+            kind, tmp_path, *alone, "--index-url", address, lent=sysconfig.get_path("purelib")
+        )
+    where, version, report = (printed.splitlines()[-1] for printed in found)
+    assert Path(where).is_relative_to(tmp_path / "environment")
+    assert version == f"mocapbench {__version__}"
+    assert Path(report.removeprefix("report: ")).is_file()
 
 
 @pytest.mark.slow

@@ -1,10 +1,14 @@
 """The version is written once, and what a release consists of agrees with it."""
 
+import json
 import re
 import tomllib
 from pathlib import Path
 
+import pytest
 import yaml
+from code_attempts import parse
+from package_index import COMMANDS
 
 from mocapbench import __version__
 
@@ -66,6 +70,40 @@ def test_the_recipe_of_conda_describes_the_package():
 
 def test_the_recipe_of_conda_tries_what_a_release_tries():
     (_, tried) = RECIPE["tests"]
-    commands = (ROOT / "tox.ini").read_text().partition("[testenv:release]")[2]
-    for command in tried["script"]:
-        assert command.partition(" --out")[0] in commands
+    assert tuple(tried["script"]) == COMMANDS
+
+
+def test_the_recipe_of_conda_is_rendered_by_the_program_that_builds_it():
+    rattler = pytest.importorskip("rattler_build", reason="py-rattler-build is not here")
+    (rendered,) = rattler.Stage0Recipe.from_file(ROOT / "conda" / "recipe.yaml").render()
+    recipe = rendered.recipe.to_dict()
+    assert recipe["package"] == {"name": "mocapbench", "version": __version__}
+    lowest = METADATA["requires-python"].removeprefix(">=")
+    assert recipe["requirements"]["run"][0] == f"python >={lowest}"
+    assert len(recipe["requirements"]["run"]) == len(METADATA["dependencies"]) + 2
+
+
+def instructions(name):
+    """Return what follows each instruction of this name in the Dockerfile."""
+    return re.findall(rf"^{name} (.*)$", (ROOT / "Dockerfile").read_text(), re.MULTILINE)
+
+
+def test_a_container_copies_what_is_here():
+    copied = [line.split()[:-1] for line in instructions("COPY") if not line.startswith("--")]
+    assert all((ROOT / name).exists() for names in copied for name in names)
+
+
+def test_a_container_runs_the_benchmark_unless_told_otherwise():
+    (entry,), (default,) = map(instructions, ("ENTRYPOINT", "CMD"))
+    (program,) = json.loads(entry)
+    assert program in METADATA["scripts"]
+    assert json.loads(default) == ["run"]
+    parse(json.loads(default))
+
+
+def test_a_container_has_extras_and_a_version_of_python_that_we_declare():
+    (extras,) = re.findall(r"whl\)\[(.*)\]", " ".join(instructions("RUN")))
+    assert set(extras.split(",")) <= set(METADATA["optional-dependencies"])
+    versions = {re.search(r"python:([\d.]+)", line)[1] for line in instructions("FROM")}
+    (version,) = versions
+    assert f"Programming Language :: Python :: {version}" in METADATA["classifiers"]

@@ -154,6 +154,24 @@ def _attempt_dask(shell, words):
     DASK[words[0]].make_context(words[0], words[1:], ignore_unknown_options=False)
 
 
+def _attempt_runner(shell, words):
+    """Our program is named, and understands what follows."""
+    del shell
+    name, *rest = words[words[0] == "run" :]
+    assert name in PYPROJECT["project"]["scripts"], words
+    parse(rest)
+
+
+def _attempt_docker(shell, words):
+    """What is built has a Dockerfile, and what is run understands the words after its name."""
+    del shell
+    name = PYPROJECT["project"]["name"]
+    if words[0] == "build":
+        assert words[-1] == "." and (ROOT / "Dockerfile").is_file(), words
+    else:
+        parse(words[words.index(name) + 1 :] or ["run"])
+
+
 ATTEMPTS = {
     "mocapbench": _attempt_mocapbench,
     "pip": _attempt_pip,
@@ -164,4 +182,7 @@ ATTEMPTS = {
     "cat": _attempt_cat,
     "git": _attempt_publishing,
     "twine": _attempt_publishing,
+    "pipx": _attempt_runner,
+    "uvx": _attempt_runner,
+    "docker": _attempt_docker,
 }

@@ -15,6 +15,8 @@ pytest FOLDER       names a folder of the source tree, or a mark that is declare
 python FILE         names a file of the page's folder or of the source tree
 cat FILE >> …       names files that there are
 git …, twine …      name a command of theirs; they publish, so nothing more is tried
+pipx run, uvx       name our program; what follows is parsed like `data fetch`
+docker …            builds from our Dockerfile, or runs what it has; that is parsed too
 dask …              is parsed by dask's own parsers, since it needs a cluster
 ==================  ==============================================================================
 
