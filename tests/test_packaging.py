@@ -1,5 +1,6 @@
 """What is declared to package indexes, and what the distributions hold."""
 
+import json
 import re
 import shutil
 import subprocess
@@ -7,6 +8,7 @@ import sys
 import sysconfig
 import tarfile
 import tomllib
+import venv
 import zipfile
 from pathlib import Path
 
@@ -179,10 +181,15 @@ def test_both_distributions_install_from_an_index_and_run_without_the_repository
     assert Path(report.removeprefix("report: ")).is_file()
 
 
+@pytest.fixture(scope="module")
+def editable(tree):
+    """Return the wheel that leads to a clone."""
+    return build("editable", tree)
+
+
 @pytest.mark.slow
-def test_an_editable_install_is_a_path_that_type_checkers_follow(tree):
+def test_an_editable_install_is_a_path_that_type_checkers_follow(tree, editable):
     """They cannot follow an import hook, nor can lint-imports."""
-    editable = build("editable", tree)
     (path_file,) = files_of(editable)
     assert path_file.endswith(".pth")
     with zipfile.ZipFile(editable) as archive:
@@ -190,3 +197,34 @@ def test_an_editable_install_is_a_path_that_type_checkers_follow(tree):
     package = Path(line) / "mocapbench"
     assert (package / "__init__.py").is_file()
     assert all((package / folder).samefile(tree / folder) for folder in FOLDERS)
+
+
+ASKED = """\
+from mocapbench import fill
+from mocapbench.benchmark import archive_at
+from mocapbench.metrics import mse
+
+reveal_type((archive_at(), mse))
+reveal_type(fill)
+"""
+
+
+@pytest.mark.slow
+def test_an_editor_knows_the_types_in_a_fresh_clone(editable, tmp_path):
+    checker = shutil.which("basedpyright", path=Path(sys.executable).parent)
+    if not checker:
+        pytest.skip("basedpyright, which bundles what editors ask, is not here")
+    venv.create(tmp_path / "environment")
+    (packages,) = (tmp_path / "environment").glob("lib/python*/site-packages")
+    shutil.unpack_archive(editable, packages, "zip")
+    (tmp_path / "asked.py").write_text(ASKED)
+    python = tmp_path / "environment" / "bin" / "python"
+    command = [checker, "--pythonpath", python, "--outputjson", "asked.py"]
+    done = subprocess.run(
+        command, cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False
+    )
+    found = json.loads(done.stdout)["generalDiagnostics"]
+    told = [line["message"] for line in found if line["message"].startswith("Type of")]
+    assert told[0] == 'Type of "(archive_at(), mse)" is "tuple[Archive, Metric[Imputation]]"'
+    assert told[1].startswith('Type of "fill" is "(recording') and told[1].endswith('-> Filled"')
+    assert not [line for line in found if line["severity"] == "error"]
