@@ -24,6 +24,7 @@ extensions = [
     "commands",
     "folders",
     "front_doors",
+    "notebooks",
     "source_links",
     "myst_parser",
     "numpydoc",

@@ -1,0 +1,48 @@
+"""Run the tutorials' notebooks, so that those to download show what they compute."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+
+import nbformat
+from nbclient import NotebookClient
+from sphinx.application import Sphinx
+
+__all__ = ["run_notebook", "setup"]
+
+_AFTER_THE_GALLERY = 900
+"""Sphinx calls what has a higher number later; the gallery, which writes them, has the default."""
+_SLOWEST_START = 600
+"""Seconds in which a kernel answers even on a busy machine."""
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Have the notebooks run before Sphinx copies what can be downloaded."""
+    app.connect("builder-inited", _run_all, priority=_AFTER_THE_GALLERY)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def run_notebook(path: Path, folder: Path) -> None:
+    """Run a notebook in a folder, and keep what its cells print and draw; once is enough.
+
+    Raises
+    ------
+    nbclient.exceptions.CellExecutionError
+        If a cell fails.
+    """
+    notebook = nbformat.read(path, as_version=4)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    if not any(cell.execution_count for cell in code):
+        where = {"metadata": {"path": str(folder)}}
+        NotebookClient(notebook, startup_timeout=_SLOWEST_START, resources=where).execute()
+        nbformat.write(notebook, path)
+
+
+def _run_all(app: Sphinx) -> None:
+    if app.builder.format == "html":  # what only checks links runs nothing
+        notebooks = sorted(Path(app.srcdir, "generated", "tutorials").glob("*.ipynb"))
+        run = partial(run_notebook, folder=Path(app.srcdir, "tutorials"))
+        with ThreadPoolExecutor(2) as pool:
+            list(pool.map(run, notebooks))
