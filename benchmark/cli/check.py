@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["app"]
 
-app = typer.Typer(add_completion=False)
+app: typer.Typer = typer.Typer(add_completion=False)
 
 NO_REFERENCE = "no reference values at {reference}: write some with --update"
 NOTHING_COMPARED = (

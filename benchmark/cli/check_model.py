@@ -20,7 +20,7 @@ from mocapbench.benchmark.testing import model_checks
 
 __all__ = ["app"]
 
-app = typer.Typer(add_completion=False)
+app: typer.Typer = typer.Typer(add_completion=False)
 
 
 @app.command("check-model")

@@ -106,7 +106,7 @@ class _Commands(TyperGroup):
             raise RuntimeError("an end of data where more was expected") from error
 
 
-app = typer.Typer(
+app: typer.Typer = typer.Typer(
     name="mocapbench",
     help="Reproducible benchmarks of models of human motion.",
     cls=_Commands,

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["app", "fetch_missing"]
 
-app = typer.Typer(
+app: typer.Typer = typer.Typer(
     help="Look for, fetch and verify recordings.", no_args_is_help=True, add_completion=False
 )
 

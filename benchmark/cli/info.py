@@ -11,7 +11,7 @@ from mocapbench.benchmark.cli.console import LiteralConsole
 
 __all__ = ["app"]
 
-app = typer.Typer(add_completion=False)
+app: typer.Typer = typer.Typer(add_completion=False)
 
 _CITATION = """\
 @software{mocapbench,

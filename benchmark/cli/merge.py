@@ -15,7 +15,7 @@ from mocapbench.benchmark.errors import ExitCode
 
 __all__ = ["app"]
 
-app = typer.Typer(add_completion=False)
+app: typer.Typer = typer.Typer(add_completion=False)
 
 
 @app.command()

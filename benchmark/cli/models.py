@@ -27,7 +27,7 @@ from mocapbench.benchmark.programs.environments import (
 
 __all__ = ["app"]
 
-app = typer.Typer(
+app: typer.Typer = typer.Typer(
     help="List models that are commands, and install what they need.",
     no_args_is_help=True,
     add_completion=False,

@@ -23,7 +23,7 @@ from mocapbench.benchmark.errors import UsageError
 
 __all__ = ["app"]
 
-app = typer.Typer(add_completion=False)
+app: typer.Typer = typer.Typer(add_completion=False)
 
 
 @app.command()

@@ -26,7 +26,7 @@ from mocapbench.benchmark.cli.options import (
 
 __all__ = ["app"]
 
-app = typer.Typer(add_completion=False)
+app: typer.Typer = typer.Typer(add_completion=False)
 
 DEFAULT_PEOPLE = ("10", "30", "100")
 

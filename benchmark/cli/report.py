@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 __all__ = ["app", "write_report"]
 
-app = typer.Typer(add_completion=False)
+app: typer.Typer = typer.Typer(add_completion=False)
 
 
 @app.command()

@@ -43,7 +43,8 @@ class QuaternionBody:
     """
 
     def __init__(self, skeleton: Skeleton, spread: FrameByJointBy3) -> None:
-        self.skeleton, self.spread = skeleton, spread
+        self.skeleton: Skeleton = skeleton
+        self.spread: FrameByJointBy3 = spread
 
     def place(self, values: FrameByChannel) -> Take:
         """Return the rotations in space (N, J, 4) and the joints in cm (N, J, 3) of frames.

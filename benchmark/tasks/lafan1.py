@@ -172,7 +172,7 @@ _NOT_CHEAP = (
 )
 """They fill each of thousands of windows anew, or learn from half a million frames, in hours."""
 
-lafan1 = Task(
+lafan1: Task = Task(
     name="lafan1",
     version=1,
     page=PAGE,

@@ -183,7 +183,7 @@ _SLOW = (
 )
 """Models that take minutes for 123 outputs and 400 frames or more."""
 
-marker_masks = Task(
+marker_masks: Task = Task(
     name="marker-masks",
     version=1,
     page=PAGE,

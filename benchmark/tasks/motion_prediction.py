@@ -248,6 +248,6 @@ def _build_task(name: str, page: TaskPage) -> Task:
     )
 
 
-motion_prediction = _build_task("motion-prediction", ALL_WINDOWS)
-motion_prediction_8_windows = _build_task("motion-prediction-8-windows", EIGHT_WINDOWS)
-motion_prediction_corrected = _build_task("motion-prediction-corrected", CORRECTED)
+motion_prediction: Task = _build_task("motion-prediction", ALL_WINDOWS)
+motion_prediction_8_windows: Task = _build_task("motion-prediction-8-windows", EIGHT_WINDOWS)
+motion_prediction_corrected: Task = _build_task("motion-prediction-corrected", CORRECTED)

@@ -361,9 +361,9 @@ def _build_profiles(name: str, cases: tuple[Case, ...], n_folds: int) -> dict[st
 
 
 _TASKS = people_tasks(read_people(), generated_people())
-lost_limb = _TASKS["lost-limb"]
-lost_limb_angles = _TASKS["lost-limb-angles"]
-lost_markers = _TASKS["lost-markers"]
-lost_markers_angles = _TASKS["lost-markers-angles"]
-in_betweening = _TASKS["in-betweening"]
-in_betweening_angles = _TASKS["in-betweening-angles"]
+lost_limb: Task = _TASKS["lost-limb"]
+lost_limb_angles: Task = _TASKS["lost-limb-angles"]
+lost_markers: Task = _TASKS["lost-markers"]
+lost_markers_angles: Task = _TASKS["lost-markers-angles"]
+in_betweening: Task = _TASKS["in-betweening"]
+in_betweening_angles: Task = _TASKS["in-betweening-angles"]
