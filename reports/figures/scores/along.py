@@ -167,5 +167,9 @@ def _band(curve: Curve, x: Scale, y: Scale) -> str:
 
 def _heading(case: CaseLayout, column: str) -> str:
     """Return what the case says in all columns but one."""
-    others = [str(value) for name, value in case.columns.items() if name != column]
+    others = [
+        f"{name}: {value}".removesuffix(".0")
+        for name, value in case.columns.items()
+        if name != column
+    ]
     return ", ".join([*others, "synthetic"] if case.synthetic else others)
