@@ -17,7 +17,7 @@ from mocapbench.benchmark.problems.masks import hide_runs
 from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.pages.marker_masks import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import FRAME_RATE, Archive, Mask, Recording, joint_trajectories
+from mocapbench.datasets import FRAME_RATE, Archive, Mask, Recording, joint_trajectories, subject_of
 from mocapbench.datasets.occlusion.fixed_masks import MarkerRun, fixed_masks
 from mocapbench.datasets.occlusion.real_gaps import real_gaps
 
@@ -159,6 +159,8 @@ def _build_case(name: str, recording: str, hidden: str, hide: Hide) -> Case:
         {"recording": recording, "hidden": hidden},
         (recording,),
         synthetic=recording == SYNTHETIC,
+        # All masks of a case are on one recording: together they are one person, not fifty.
+        subjects=() if recording == SYNTHETIC else (subject_of(recording),),
     )
 
 

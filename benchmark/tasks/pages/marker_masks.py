@@ -32,8 +32,8 @@ PAGE = TaskPage(
         "visible.",
         "A published value is the mean of 50 errors that the authors’ repository prints, one for "
         "each mask.",
-        "All masks of a case are on one recording of one person: intervals are over masks, and say "
-        "nothing of other recordings.",
+        "All masks of a case are on one recording of one person, who is the unit of statistics: no "
+        "lead is tested, however many masks show it.",
         "Lengths of real gaps, and how many overlap, are those of two files, of a reach by Vicon "
         "and a walk by OptiTrack. Which markers are hidden, and when, is drawn.",
     ),

@@ -6,6 +6,11 @@ from mocapbench.benchmark import TASKS
 from mocapbench.datasets import subject_of
 
 CASES = [(name, case) for name in TASKS.names() for case in TASKS.get(name).cases]
+DRAWN_ANEW = {
+    *("exaggerated-synthesis", "soccer-synthesis", "walking-synthesis"),
+    *("style-clustering", "walking-interpolation"),
+}
+"""Tasks whose folds, as in the thesis, draw anew on the recordings that all of them have."""
 
 
 def subjects_of(task):
@@ -26,11 +31,22 @@ def test_subjects_are_those_of_recordings_of_the_case_and_generated_motion_has_n
         ("golf-swings", {("64",)}),
         ("marker-gaps", {("35", "10", "64", "02")}),
         ("upper-body-missing", {("07",)}),
+        ("marker-masks", {("135",), ("85",)}),
         ("walking-interpolation", {()}),
     ],
 )
 def test_the_subjects_of_a_task(task, subjects):
     assert subjects_of(task) == subjects
+
+
+def test_many_folds_on_one_recording_are_no_units_of_a_lead_over_people():
+    counted = {
+        name
+        for name, case in CASES
+        if case.recordings and not (case.synthetic or case.subjects)
+        if TASKS.get(name).independent_folds and TASKS.get(name).max_folds != 1
+    }
+    assert counted == DRAWN_ANEW
 
 
 def test_a_case_of_several_references_has_no_subject_and_one_of_one_has_that():
