@@ -13,7 +13,7 @@ from typing import Any
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.plugin_kinds import PLUGIN_KINDS, check_definition
-from mocapbench.benchmark.programs.declaration import define_model, is_declaration
+from mocapbench.benchmark.programs.declaration import define_models, is_declaration
 from mocapbench.benchmark.registry import Registry
 
 __all__ = ["load_plugin", "load_plugins"]
@@ -81,7 +81,7 @@ def load_plugin(path: Path) -> tuple[str, ...]:
 def _definitions(path: Path) -> Definitions:
     """Return what a file defines, once it is known to be usable."""
     _require_file(path)
-    defined = {"MODELS": dict([define_model(path)])} if is_declaration(path) else _execute(path)
+    defined = {"MODELS": define_models(path)} if is_declaration(path) else _execute(path)
     for attribute, values in defined.items():
         check_definition(path, attribute, values)
     return defined

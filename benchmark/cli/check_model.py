@@ -50,7 +50,7 @@ def check_model(
 
 
 def _load_models(files: list[Path]) -> list[str]:
-    """Register what files define, and return the names of their models.
+    """Register what files define, and return the names of their models, each with one seed.
 
     Raises
     ------
@@ -59,7 +59,8 @@ def _load_models(files: list[Path]) -> list[str]:
     """
     before = {*bench.MODELS.names()}
     bench.load_plugins([locate_plugin(path) for path in files])
-    names = sorted({*bench.MODELS.names()} - before)
+    new = sorted({*bench.MODELS.names()} - before)
+    names = [name for name in new if not getattr(bench.MODELS.get(name), "same_as", "")]
     if not names:
         listed = ", ".join(map(str, files))
         raise UsageError(f"expected files that define models, got none in {listed}")

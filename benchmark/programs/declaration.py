@@ -22,7 +22,7 @@ from mocapbench.benchmark.programs.model import CommandModel
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.values import is_count, is_path, is_text, read_names
 
-__all__ = ["define_model", "find_requirements", "is_declaration", "list_files", "read_declaration"]
+__all__ = ["define_models", "find_requirements", "is_declaration", "list_files", "read_declaration"]
 
 _ABILITIES = ("fills frames", "fills entries", "fills new recordings", "interpolates")
 """What a command may provide."""
@@ -30,7 +30,7 @@ _NEEDS = ("coordinates",)
 """What a command may need: nothing that `fit` receives besides recordings."""
 _KEYS = (
     *("name", "summary", "command", "files", "format", "provides", "needs", "learns_in_fit"),
-    *("max_frames", "environment", "licence", "source", "requirements"),
+    *("max_frames", "seeds", "environment", "licence", "source", "requirements"),
 )
 
 
@@ -39,8 +39,11 @@ def is_declaration(path: Path) -> bool:
     return path.suffix == ".toml"
 
 
-def define_model(path: Path) -> tuple[str, type[CommandModel]]:
-    """Return the name of the model that a TOML file declares, and its class.
+def define_models(path: Path) -> Mapping[str, type[CommandModel]]:
+    """Return the class of the model that a TOML file declares, by each name that it has.
+
+    Where it takes part with several seeds, these are its own, and with a number after it: a seed
+    follows from the name.
 
     Raises
     ------
@@ -66,7 +69,12 @@ def define_model(path: Path) -> tuple[str, type[CommandModel]]:
         "__doc__": _describe(document, command),
         **_read_abilities(document),
     }
-    return name, _register_class(name, content)
+    seeds: int = document.read("seeds", 1, is_count, "a number of seeds", "3")
+    again = [f"{name}-{number}" for number in range(2, seeds + 1)]
+    return {
+        name: _register_class(name, content),
+        **{other: _register_class(other, {**content, "same_as": name}) for other in again},
+    }
 
 
 def read_declaration(path: Path) -> Document:

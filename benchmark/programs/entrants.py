@@ -18,9 +18,13 @@ def find_entrants() -> Mapping[str, Path]:
 
 
 def select_entrants(names: Iterable[str]) -> tuple[Path, ...]:
-    """Return the TOML files of those models among some names that are commands of ours."""
+    """Return the TOML files of those models among some names that are commands of ours.
+
+    With another seed one has a number after its name.
+    """
     known = find_entrants()
-    return tuple(known[name] for name in names if name in known)
+    files = dict.fromkeys(known.get(name, known.get(name.rpartition("-")[0])) for name in names)
+    return tuple(filter(None, files))
 
 
 def locate_plugin(named: Path) -> Path:

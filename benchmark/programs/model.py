@@ -56,6 +56,8 @@ class CommandModel(FrameImputer):
     """The name of one of `EXCHANGES`."""
     variables: ClassVar[Mapping[str, str]] = {}
     """Of its environment: those with which it finds its packages."""
+    same_as: ClassVar[str] = ""
+    """The name of the model that it is with another seed, if it is."""
 
     def __init__(self, random_state: int = 0) -> None:
         self.random_state = random_state

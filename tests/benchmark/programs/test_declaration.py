@@ -67,6 +67,7 @@ FAULTS = {
     "need of Python": ('needs = ["true process"]', "expected some of coordinates, got 'true proc"),
     "no truth value": ("learns_in_fit = 1", "expected true or false, got 1"),
     "no frames": ("max_frames = 0", "expected a number of frames, got 0"),
+    "no seeds": ("seeds = 0", "expected a number of seeds, got 0"),
     "empty text": ('source = ""', "key source: expected a text, got ''"),
     "no TOML": ("provides = [", "expected TOML, got"),
 }
@@ -120,6 +121,15 @@ def test_predictions_are_new_if_the_file_or_a_file_that_it_lists_changes(declare
     second = find_key()
     load_plugin(declare(lines='environment = "dash 0.6"'))
     assert len({first, second, find_key()}) == 3
+
+
+def test_with_several_seeds_it_has_a_name_for_each(declare):
+    names = load_plugin(declare(lines="seeds = 3"))
+    assert names == ("mine", "mine-2", "mine-3")
+    assert len({find_key(name) for name in names}) == 3
+    for name in names:
+        model = MODELS.get(name)()
+        assert pickle.loads(pickle.dumps(model)).files_digest == MODELS.get("mine").files_digest
 
 
 def test_a_name_with_dots_can_be_pickled(declare):

@@ -13,7 +13,12 @@ from mocapbench.benchmark.programs.declaration import (
     list_files,
     read_declaration,
 )
-from mocapbench.benchmark.programs.entrants import find_entrants, locate_plugin, name_plugin
+from mocapbench.benchmark.programs.entrants import (
+    find_entrants,
+    locate_plugin,
+    name_plugin,
+    select_entrants,
+)
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.testing import check_model
 
@@ -62,6 +67,11 @@ def test_a_file_of_the_name_comes_first(tmp_path, monkeypatch):
     Path("gapfill").touch()
     assert locate_plugin(Path("gapfill")) == tmp_path / "gapfill"
     assert name_plugin(tmp_path / "gapfill") == str(tmp_path / "gapfill")
+
+
+def test_one_with_another_seed_has_a_number_after_its_name():
+    found = select_entrants(["saits-2", "no-such", "linear", "sklearn-knn", "saits"])
+    assert found == (ENTRANTS["saits"], ENTRANTS["sklearn-knn"])
 
 
 @pytest.mark.parametrize("name", SMALL)

@@ -43,7 +43,7 @@ def commands(tmp_path):
         (folder / f"{name}.sh").write_text(script)
         (folder / f"{name}.toml").write_text(
             f'name = "{name}"\ncommand = ["sh", "{name}.sh"]\nfiles = ["{name}.sh"]\n'
-            'format = "csv"\nprovides = ["fills entries", "fills new recordings"]\n'
+            'format = "csv"\nprovides = ["fills entries", "fills new recordings"]\nseeds = 2\n'
         )
     return [word for name in SCRIPTS for word in ("--plugin", folder / f"{name}.toml")]
 
@@ -94,6 +94,7 @@ def test_a_file_is_checked_from_the_command_line(cli, commands, tmp_path):
     good, dies = (tmp_path / "commands" / f"{name}.toml" for name in ("good", "dies"))
     assert cli("check-model", good) == 0
     assert "good fills any mask: ok" in cli.printed
+    assert "good-2" not in cli.printed  # which is the same with another seed
     assert ": 0 failed" in cli.printed
     assert cli("check-model", dies) == 2
     assert "dies fills any mask: expected that hidden entries are filled" in cli.printed
