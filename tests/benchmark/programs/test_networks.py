@@ -141,6 +141,19 @@ def test_learning_ends_with_half_of_the_time(run_in):
     assert ended.stdout == "then it goes on\n"
 
 
+LATE = """
+import signal, time, training
+time.sleep(3)
+with training.limit_time():
+    print(signal.getitimer(signal.ITIMER_REAL)[0] < 0.8 * 100 - 3)
+"""
+
+
+@pytest.mark.slow
+def test_what_was_spent_before_learning_is_part_of_the_time(run_in):
+    assert run_in("transformer", "-c", LATE, seconds="100").stdout == "True\n"
+
+
 @pytest.mark.slow
 def test_learning_stops_when_held_out_recordings_get_worse_and_the_best_weights_are_kept(run_in):
     ended = run_in("transformer", "-c", RISES, seconds="1000")
