@@ -56,8 +56,8 @@ from .results.solved_problems import solved_problem
 from .runs.directory import RunDirectory
 from .runs.execution.base import Backend
 from .runs.execution.choice import open_backend, require_backend
-from .runs.execution.fork_server import fork_server
 from .runs.execution.this_machine import ThisMachine
+from .runs.execution.worker_context import worker_context
 from .runs.job import Job, WorkerConfig
 from .runs.machine import memory_share, n_cores
 from .runs.plan import plan, required_recordings
@@ -145,7 +145,6 @@ __all__ = [
     "find_tasks",
     "finished_records",
     "forecast_text",
-    "fork_server",
     "format_entry",
     "format_for",
     "hide_all_but",
@@ -195,5 +194,6 @@ __all__ = [
     "task_entry",
     "unite_submissions",
     "with_folders",
+    "worker_context",
     "write_submission",
 ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import resource
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
@@ -10,12 +9,13 @@ from typing import Annotated
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench.basics.child import ProcessDiedError, call_in_child
+from mocapbench.basics.system.choice import find_system
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.programs.entrants import locate_plugin
-from mocapbench.benchmark.runs.execution.child import ProcessDiedError, call_in_child
 from mocapbench.benchmark.testing import model_checks
 
 __all__ = ["app"]
@@ -84,8 +84,7 @@ def _find_fault(
 
 def _try_check(check: Callable[..., None], name: str) -> str:
     """Return what a check finds in this process, whose memory is limited as that of a job."""
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    resource.setrlimit(resource.RLIMIT_AS, (int(bench.memory_share(1) * 2**30), hard))
+    find_system().limit_memory(bench.memory_share(1) * 2**30)
     try:
         check(bench.MODELS.get(name))
     except Exception as error:

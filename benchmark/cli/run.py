@@ -98,7 +98,7 @@ def run(
     require_log(log_json, out)
     bench.require_backend(jobs, scheduler, cluster)
     if not (dry_run or scheduler or cluster or out.exists()):
-        bench.fork_server()  # of a new run, which loads the libraries while it is planned
+        bench.worker_context()  # of a new run, which loads the libraries while it is planned
     console, plugins = LiteralConsole(), load_plugins(plugin, split(models))
     task_files = bench.open_task_files(task_file or (), recordings)
     archive, own = (

@@ -7,8 +7,6 @@ whatever a model makes of it.
 
 from __future__ import annotations
 
-import math
-import resource
 import sys
 import warnings
 from collections.abc import Callable
@@ -23,6 +21,8 @@ from threadpoolctl import threadpool_limits
 
 from mocapbench.baselines import FrameImputer, Model
 from mocapbench.basics.arrays import Array
+from mocapbench.basics.child import LONGEST
+from mocapbench.basics.system.choice import find_system
 from mocapbench.benchmark.filling.gap_problem import (
     GapProblem,
     PredictedEntries,
@@ -31,7 +31,6 @@ from mocapbench.benchmark.filling.gap_problem import (
     pose_imputing,
 )
 from mocapbench.benchmark.messages import reason
-from mocapbench.benchmark.runs.execution.child import LONGEST
 from mocapbench.benchmark.runs.fitting.solve import build_model
 
 __all__ = ["FillAttempt", "attempt_fill", "fill_problem", "keep_constants"]
@@ -82,7 +81,7 @@ def attempt_fill(
     memory : int
         Bytes of address space to which this process is limited from now on.
     seconds : float, optional
-        Of processor time, after which the system kills this process by SIGXCPU.
+        Of processor time, after which the system ends this process.
     seed : int, default=0
         Of what the model draws at random.
     method : str, default="impute"
@@ -91,8 +90,8 @@ def attempt_fill(
     calibration : callable, optional
         What calibrates the model.
     """
-    _limit(resource.RLIMIT_AS, memory)
-    _limit(resource.RLIMIT_CPU, math.ceil(seconds))
+    find_system().limit_memory(memory)
+    find_system().limit_work(seconds)
     # There are as many attempts as cores: more threads would wait for each other.
     threadpool_limits(limits=1)
     try:
@@ -105,13 +104,6 @@ def attempt_fill(
         return FillAttempt(None, str(error), stopped=True)
     except BaseException as error:  # a model that calls sys.exit has failed like any other
         return FillAttempt(None, reason(error) + _locate_error(error, model))
-
-
-def _limit(what: int, most: int) -> None:
-    """Limit this process to so much of a resource, or to what the user's shell allows if less."""
-    _, hard = resource.getrlimit(what)
-    unlimited = hard == resource.RLIM_INFINITY
-    resource.setrlimit(what, (most if unlimited else min(most, hard), hard))
 
 
 def fill_problem(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import signal
 from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from contextlib import ExitStack
@@ -15,18 +14,14 @@ from typing import Any, Protocol, Self
 import joblib
 from pebble import ProcessExpired
 
-from mocapbench.basics.processes import kill_children
+from mocapbench.basics.child import LONGEST, ProcessDiedError, call_in_child
 from mocapbench.basics.scratch import scratch_folder
+from mocapbench.basics.system.choice import find_system
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.registry import MODELS, find_calibration
-from mocapbench.benchmark.runs.execution.child import (
-    LONGEST,
-    ProcessDiedError,
-    call_in_child,
-)
-from mocapbench.benchmark.runs.execution.fork_server import fork_server_without_script
 from mocapbench.benchmark.runs.execution.worker import load_plugins_once
+from mocapbench.benchmark.runs.execution.worker_context import worker_context_without_script
 from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 from mocapbench.benchmark.runs.machine import memory_share
 
@@ -92,7 +87,7 @@ class Workers:
     def __enter__(self) -> Self:
         with ExitStack() as resources:
             self._folder = resources.enter_context(scratch_folder())
-            self._pool = WorkerPool(self._count, fork_server_without_script)
+            self._pool = WorkerPool(self._count, worker_context_without_script)
             self._resources = resources.pop_all()
         return self
 
@@ -162,7 +157,8 @@ def _attempt_in_child(
     plugins: tuple[Path, ...],
 ) -> FillAttempt:
     """Return one attempt of so many seconds of work, made in a child of this process."""
-    load_plugins_once(plugins)
+    prepare = partial(load_plugins_once, plugins)
+    prepare()
     model, calibration = MODELS.get(name), find_calibration(name)
     attempt = partial(
         _attempt_kept,
@@ -172,18 +168,20 @@ def _attempt_in_child(
         calibration=calibration,
     )
     try:
-        made: FillAttempt = call_in_child(attempt, model, problem, memory, timeout=lasting)
+        made: FillAttempt = call_in_child(
+            attempt, model, problem, memory, timeout=lasting, prepare=prepare
+        )
     except TimeoutError:
         made = FillAttempt(None, f"was stopped after {lasting:.3g} s", stopped=True)
     except ProcessDiedError as error:
         made = _explain_death(error.exit_code, seconds)
     finally:
-        kill_children()  # what the model started and left running
+        find_system().kill_children()  # what the model started and left running
     return made
 
 
 def _explain_death(exit_code: int, seconds: float) -> FillAttempt:
-    if exit_code == -signal.SIGXCPU:
+    if find_system().is_end_of_work(exit_code):
         return FillAttempt(None, f"was stopped after {seconds:.3g} s of work", stopped=True)
     return FillAttempt(None, f"its process died with exit code {exit_code}")
 

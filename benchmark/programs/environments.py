@@ -11,15 +11,14 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+import sysconfig
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from mocapbench.basics.cache import find_cache
-from mocapbench.basics.processes import die_with_parent
+from mocapbench.basics.system.choice import find_system
 from mocapbench.basics.temporaries import sweep, temporary_folder
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import words_of
@@ -54,6 +53,10 @@ _ADVICE = {
 _INSTALL = ("install", "--progress-bar", "off", "--retries", "2")
 _MADE = "made"
 """The name of an environment until it is whole."""
+_TEMPORARY = ("TMPDIR", "TEMP", "TMP")
+"""The variables by which systems name the folder of temporary files."""
+_PROGRAMS = Path(sysconfig.get_path("scripts", "venv", {"base": "."})).name
+"""The folder of an environment with its programs: bin, or on Windows Scripts."""
 
 
 def find_environments() -> Path:
@@ -84,7 +87,7 @@ def list_variables(environment: Path) -> Mapping[str, str]:
 
     Packages of the Python that runs mocapbench are not seen there.
     """
-    paths = (str(environment / "bin"), os.environ.get("PATH", os.defpath))
+    paths = (str(environment / _PROGRAMS), os.environ.get("PATH", os.defpath))
     return {
         "PATH": os.pathsep.join(paths),
         "VIRTUAL_ENV": str(environment),
@@ -140,7 +143,7 @@ def _make_environment(folder: Path, requirements: Path, tell: Callable[[str], ob
     """
     made = folder / _MADE
     pip = (
-        str(made / "bin" / "python"),
+        str(made / _PROGRAMS / "python"),
         "-m",
         "pip",
         "--disable-pip-version-check",
@@ -172,7 +175,7 @@ def _require_packages(requirements: Path) -> None:
 
 def _name_interpreter(made: Path, environment: Path) -> None:
     """Have scripts name the interpreter by its place, to which it will move."""
-    for script in (made / "bin").iterdir():
+    for script in (made / _PROGRAMS).iterdir():
         if script.is_file() and not script.is_symlink():
             content = script.read_bytes()
             script.write_bytes(content.replace(os.fsencode(made), os.fsencode(environment)))
@@ -183,7 +186,15 @@ def _call(
 ) -> tuple[int, list[str]]:
     """Return the exit code of a program and the lines that it wrote; its news are told."""
     lines = []
-    with _start(words, folder) as process:
+    with find_system().run_program(
+        words,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        env={**os.environ, **dict.fromkeys(_TEMPORARY, str(folder)), "PYTHONPATH": ""},
+    ) as process:
         assert process.stdout is not None
         for line in map(str.strip, process.stdout):
             lines.append(line)
@@ -191,27 +202,6 @@ def _call(
                 tell(shorten_text(line.partition(" (from ")[0], _WIDTH))
         process.wait()
     return process.returncode, lines
-
-
-@contextmanager
-def _start(words: Sequence[str], folder: Path) -> Iterator[subprocess.Popen[str]]:
-    """Start a program, which is killed at the end of the context with all that it started."""
-    with subprocess.Popen(
-        words,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        errors="replace",
-        env={**os.environ, "TMPDIR": str(folder), "PYTHONPATH": ""},
-        process_group=0,
-        preexec_fn=die_with_parent,  # noqa: PLW1509  # this process has one thread
-    ) as process:
-        try:
-            yield process
-        finally:
-            with suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
 
 
 def _explain_failure(requirements: Path, lines: Sequence[str]) -> UsageError:

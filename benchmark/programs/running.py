@@ -2,33 +2,31 @@
 
 from __future__ import annotations
 
-import math
 import os
-import resource
 import shlex
 import signal
 import subprocess
+import threading
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
-from multiprocessing.connection import wait
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+from typing import IO
 
-from mocapbench.basics.processes import count_seconds_left, die_with_parent, measure_memory
+from mocapbench.basics.deadline import count_seconds_left
+from mocapbench.basics.system.choice import find_system
 from mocapbench.basics.words import printable
 
 __all__ = ["SECONDS", "ProgramError", "run_program"]
 
 SECONDS = "MOCAPBENCH_SECONDS"
 """The variable of the environment with the time that the program has."""
-_LOOK = 0.1
-"""Seconds after which the memory of a program is measured again."""
+_LOOK, _PATIENCE = 0.1, 5.0
+"""Seconds after which the memory of a program is measured again, and for its last words."""
 _SHARE, _RESERVE = 0.9, 5.0
 """Of the time that is left, which a program gets; and seconds beyond which no more is kept back.
 
 In the rest this process says what became of it.
 """
-_OUT_OF_WORK = (-signal.SIGXCPU, 128 + signal.SIGXCPU)
-"""The exit codes of a program, and of one that a shell runs, which worked longer than it may."""
 _KEPT, _LINES = 4_000, 5
 """Bytes of what a program says that are kept, and lines that are shown."""
 
@@ -67,102 +65,91 @@ def run_program(
     """
     called, left = f"{shlex.join(words)} FOLDER", count_seconds_left()
     seconds = max(0.0, _SHARE * left, left - _RESERVE)
-    told = f"{min(seconds, _find_limit(resource.RLIMIT_CPU)):.1f}"
-    with _start([*words, str(files)], folder, {**variables, SECONDS: told}) as process:
-        said = _watch(process, called, seconds)
-    if process.returncode in _OUT_OF_WORK:
-        signal.raise_signal(signal.SIGXCPU)  # its work is that of this process, and so is its limit
+    system = find_system()
+    told = f"{min(seconds, system.find_work_limit()):.1f}"
+    with _start([*words, str(files)], folder, {**variables, SECONDS: told}) as (process, speech):
+        excess = _watch(process, called, seconds)
+    said = _quote(speech.read())
+    if excess is not None:
+        raise type(excess)(f"{excess}{said}")
+    if system.is_end_of_work(process.returncode):
+        system.end_work()  # its work is that of this process, and so is its limit
     if process.returncode:
         raise ProgramError(
             f"expected `{called}` to end with exit code 0, got {_name_ending(process.returncode)}"
-            f"{_quote(said)}"
+            f"{said}"
         )
-    return _quote(said)
+    return said
+
+
+class _Speech:
+    """The end of what a program writes to standard error, read as it comes.
+
+    Parameters
+    ----------
+    pipe : file
+        Which other processes may hold open, too.
+    """
+
+    def __init__(self, pipe: IO[bytes]) -> None:
+        self._said = b""
+        self._thread = threading.Thread(
+            target=self._listen, args=(os.dup(pipe.fileno()),), daemon=True
+        )
+        self._thread.start()
+
+    def _listen(self, pipe: int) -> None:
+        with os.fdopen(pipe, "rb", buffering=0) as speech:
+            while new := speech.read(65_536):
+                self._said = (self._said + new)[-_KEPT:]
+
+    def read(self) -> bytes:
+        """Return what the program, which has ended, wrote last."""
+        self._thread.join(_PATIENCE)  # no longer: one that got away may hold the pipe
+        return self._said
 
 
 @contextmanager
 def _start(
     words: Sequence[str], folder: Path, variables: Mapping[str, str]
-) -> Iterator[subprocess.Popen[bytes]]:
+) -> Iterator[tuple[subprocess.Popen[bytes], _Speech]]:
     """Start a program, which is killed at the end of the context with all that it started."""
-    try:
-        process = subprocess.Popen(
+    with ExitStack() as started:
+        program = find_system().run_program(
             words,
             cwd=folder,
             env={**os.environ, **variables},
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
-            process_group=0,
-            preexec_fn=_prepare,  # noqa: PLW1509  # this process has one thread
         )
-    except OSError as error:
-        raise ProgramError(
-            f"expected a program that can be started, got {words[0]!r}: {error.strerror}; "
-            "install it, or correct the command"
-        ) from error
-    try:
-        yield process
-    finally:
-        with suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
+        try:
+            process = started.enter_context(program)
+        except OSError as error:
+            raise ProgramError(
+                f"expected a program that can be started, got {words[0]!r}: {error.strerror}; "
+                "install it, or correct the command"
+            ) from error
         assert process.stderr is not None
-        process.stderr.close()
+        yield process, _Speech(process.stderr)
 
 
-def _prepare() -> None:
-    """Let the process end with this one, and reserve any addresses: Julia and CUDA do."""
-    die_with_parent()
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
-
-
-def _watch(process: subprocess.Popen[bytes], called: str, seconds: float) -> bytes:
-    """Return the end of what a program said, once it has ended."""
-    assert process.stderr is not None
-    most, speech = _find_limit(resource.RLIMIT_AS), process.stderr.fileno()
-    ended, said = os.pidfd_open(process.pid), b""
-    watched = [speech, ended]
-    left = count_seconds_left() - seconds
-    try:
-        while ended not in (ready := wait(watched, _LOOK)):
-            if ready:
-                new = os.read(speech, 65_536)
-                watched = watched if new else [ended]
-                said = (said + new)[-_KEPT:]
-            _require_memory(called, measure_memory(process.pid), most, said)
-            if count_seconds_left() < left:
-                raise TimeoutError(
-                    f"expected `{called}` to end within {seconds:.3g} s, got no end{_quote(said)}"
-                )
-        process.wait()
-        return (said + _read_rest(speech))[-_KEPT:]
-    finally:
-        os.close(ended)
-
-
-def _find_limit(what: int) -> float:
-    most, _ = resource.getrlimit(what)
-    return math.inf if most == resource.RLIM_INFINITY else most
-
-
-def _require_memory(called: str, held: int, most: float, said: bytes) -> None:
-    if held > most:
-        raise MemoryError(
-            f"expected `{called}` to take at most {most / 2**30:.1f} GiB of memory, got "
-            f"{held / 2**30:.1f} GiB{_quote(said)}"
-        )
-
-
-def _read_rest(pipe: int) -> bytes:
-    """Return what is left in a pipe, which processes that live on may hold open."""
-    os.set_blocking(pipe, False)
-    said = b""
-    with suppress(BlockingIOError):
-        while new := os.read(pipe, 65_536):
-            said = (said + new)[-_KEPT:]
-    return said
+def _watch(process: subprocess.Popen[bytes], called: str, seconds: float) -> Exception | None:
+    """Wait for the end of a program, and return None; or, at once, in what it is excessive."""
+    system, left = find_system(), count_seconds_left() - seconds
+    most = system.find_memory_limit()
+    while process.poll() is None:
+        held = system.measure_memory(process.pid)
+        if held > most:
+            return MemoryError(
+                f"expected `{called}` to take at most {most / 2**30:.1f} GiB of memory, got "
+                f"{held / 2**30:.1f} GiB"
+            )
+        if count_seconds_left() < left:
+            return TimeoutError(f"expected `{called}` to end within {seconds:.3g} s, got no end")
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(_LOOK)
+    return None
 
 
 def _name_ending(code: int) -> str:

@@ -18,7 +18,6 @@ absent.
 
 from __future__ import annotations
 
-import fcntl
 import json
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
@@ -30,6 +29,7 @@ import msgspec
 import numpy as np
 from filelock import FileLock, Timeout
 
+from mocapbench.basics.system.choice import find_system
 from mocapbench.basics.temporaries import sweep
 from mocapbench.basics.whole_files import atomic_write, write_text
 from mocapbench.benchmark.errors import UsageError
@@ -167,14 +167,7 @@ class RunDirectory:
     @property
     def is_locked(self) -> bool:
         """Whether a run is writing to the folder, which need not be writable."""
-        try:
-            with (self.path / _LOCK).open("rb") as file:
-                fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except FileNotFoundError:
-            return False
-        except BlockingIOError:
-            return True
-        return False
+        return find_system().is_held(self.path / _LOCK)
 
     def sweep(self) -> None:
         """Delete temporary files that killed commands left, here and where records lie."""

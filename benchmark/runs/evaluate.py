@@ -6,13 +6,13 @@ The model's part may run in a process of its own. A metric that fails costs no o
 from __future__ import annotations
 
 import math
-import resource
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from joblib import parallel_config
 
+from mocapbench.basics.system.choice import find_system
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.messages import reason, traceback_of
 from mocapbench.benchmark.problems.base import Problem
@@ -60,7 +60,7 @@ def evaluate(
     """
     job = work.job
     try:
-        resource.setrlimit(resource.RLIMIT_AS, (config.memory, resource.RLIM_INFINITY))
+        find_system().limit_memory(config.memory)
         problem = TASKS.get(job.address.task).case(job.address.case).problem(job.seeds, archive)
     except BaseException as error:
         return Outcome(job.record_failure(error, config.memory))

@@ -29,6 +29,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
+from mocapbench.basics.child import ProcessDiedError, call_in_child
 from mocapbench.benchmark.filling.candidates import find_candidates
 from mocapbench.benchmark.filling.costs import (
     START,
@@ -40,7 +41,6 @@ from mocapbench.benchmark.filling.costs import (
 from mocapbench.benchmark.filling.fill_attempt import attempt_fill
 from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.registry import MODELS, build_unfitted, find_calibration
-from mocapbench.benchmark.runs.execution.child import ProcessDiedError, call_in_child
 from mocapbench.datasets import Recording
 
 Array = NDArray[np.float64]

@@ -12,8 +12,8 @@ import pytest
 from rich.console import Console
 
 from mocapbench import benchmark as bench
+from mocapbench.basics.child import call_in_child
 from mocapbench.benchmark.runs import evaluate
-from mocapbench.benchmark.runs.execution.child import call_in_child
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
 from mocapbench.benchmark.runs.job import Work
 

@@ -9,6 +9,7 @@ from typing import TextIO
 from rich.text import Text
 
 from mocapbench import datasets
+from mocapbench.basics.system.choice import UnknownBackendError
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import ExitCode, Interruption, OutputError, UsageError
 from mocapbench.benchmark.files import words_of
@@ -70,6 +71,7 @@ def _code_and_message(error: BaseException) -> tuple[ExitCode, str]:
     match error:
         case (
             UsageError()
+            | UnknownBackendError()
             | datasets.DigestMismatch()
             | datasets.AcclaimError()
             | datasets.FormatError()

@@ -11,11 +11,13 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
+from mocapbench.basics.system.choice import find_system
+from mocapbench.basics.system.starting import list_signals
 from mocapbench.benchmark.errors import Interruption
 
 __all__ = ["wind_up_at_signals"]
 
-_ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_ENDING, _ALARM = list_signals("SIGINT", "SIGTERM", "SIGHUP"), list_signals("SIGALRM")
 _PATIENCE = 5.0
 """Seconds for which a signal waits for the end of an import at most."""
 _PAUSE = 0.02
@@ -64,9 +66,10 @@ class _Ending:
 
     def strike(self, _number: int, frame: FrameType | None) -> None:
         """Interrupt what runs, or come back a little later."""
-        if _is_importing(frame) and time.monotonic() < self._latest:
-            signal.setitimer(signal.ITIMER_REAL, _PAUSE)
-        elif self.interruption is not None:
+        waits = _is_importing(frame) and time.monotonic() < self._latest
+        if waits and find_system().send_alarm(_PAUSE):
+            return
+        if self.interruption is not None:
             raise self.interruption
 
 
@@ -75,16 +78,15 @@ def _handlers(ending: _Ending) -> Iterator[None]:
     """Handle signals within the context, but those that are ignored, as SIGHUP under nohup."""
     before: dict[int, Any] = {}
     if threading.current_thread() is threading.main_thread():
-        before = {number: signal.getsignal(number) for number in (*_ENDING, signal.SIGALRM)}
+        before = {number: signal.getsignal(number) for number in (*_ENDING, *_ALARM)}
     heard = [number for number in before if before[number] is not signal.SIG_IGN]
     try:
         for number in heard:
-            alarm = number == signal.SIGALRM
-            signal.signal(number, ending.strike if alarm else ending.receive)
+            signal.signal(number, ending.strike if number in _ALARM else ending.receive)
         yield
     finally:
-        if before:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
+        if ending.interruption is not None:
+            find_system().stop_timer()
         for number in heard:
             signal.signal(number, before[number])
 

@@ -10,9 +10,9 @@ import dask
 from distributed import Client, LocalCluster, Worker, WorkerPlugin
 
 from mocapbench.basics.scratch import process_folder
+from mocapbench.basics.system.starting import SAFE_PATH, change_environment
 from mocapbench.benchmark.runs.cluster.admission import require_workers
 from mocapbench.benchmark.runs.cluster.backend import ClusterBackend
-from mocapbench.benchmark.runs.execution.fork_server import SAFE_PATH, environment
 
 __all__ = ["open_backend"]
 
@@ -37,7 +37,7 @@ def open_backend(kind: str) -> ClusterBackend:
 
 def _cluster(n_workers: int) -> LocalCluster:
     # The configuration is for workers that are started again, the environment for what else starts.
-    with dask.config.set(_SAFE), environment(SAFE_PATH):
+    with dask.config.set(_SAFE), change_environment(SAFE_PATH):
         return LocalCluster(
             n_workers=n_workers,
             threads_per_worker=1,

@@ -9,9 +9,11 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
+from mocapbench.basics.system.starting import list_signals
+
 __all__ = ["interrupts_later"]
 
-_ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGALRM)
+_ENDING = list_signals("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
 """An alarm brings back a signal that struck where it had to wait."""
 
 

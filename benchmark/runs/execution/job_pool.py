@@ -1,23 +1,22 @@
 """A pool of workers that live for many jobs, the model of each in a killable process.
 
-A crash, a hang or a kill costs one record alone. Workers are forked from a server that has the
-libraries loaded but has computed nothing, and one that dies is replaced.
+A crash, a hang or a kill costs one record alone. A worker that dies is replaced.
 """
 
 from __future__ import annotations
 
-import signal
 from collections.abc import Collection
 from concurrent.futures import CancelledError, Future
 from concurrent.futures.process import BrokenProcessPool
 
 from pebble import ProcessExpired
 
+from mocapbench.basics.system.choice import find_system
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.messages import reason
-from mocapbench.benchmark.runs.execution.fork_server import UNGUARDED
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.execution.worker import run_job
+from mocapbench.benchmark.runs.execution.worker_context import UNGUARDED
 from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
 
@@ -62,7 +61,7 @@ class JobPool:
         except BrokenProcessPool as error:
             raise UsageError(UNGUARDED) from error
         except ProcessExpired as error:
-            if error.exitcode == -signal.SIGALRM:
+            if find_system().is_end_of_time(error.exitcode):
                 timeout = self._config.timeout
                 return Outcome(job.timed_out(timeout), seconds=timeout)
             message = f"the worker died with exit code {error.exitcode} before it could report"

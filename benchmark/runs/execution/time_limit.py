@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import signal
 import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any
 
-from mocapbench.benchmark.runs.execution.child import LONGEST, call_in_child
+from mocapbench.basics.child import LONGEST, call_in_child
+from mocapbench.basics.system.choice import find_system
 
 __all__ = ["TimeLimit"]
 
@@ -16,9 +16,7 @@ _SHORTEST = 1e-3  # s; a timer of none never ends
 
 
 class TimeLimit(AbstractContextManager["TimeLimit"]):
-    """A context in which this process is killed by SIGALRM when the time is up.
-
-    A signal that is not handled ends a loop in a library's C code, too.
+    """A context in which this process is ended when the time is up.
 
     Parameters
     ----------
@@ -38,20 +36,27 @@ class TimeLimit(AbstractContextManager["TimeLimit"]):
 
     def __exit__(self, *_: object) -> None:
         """Stop the timer."""
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        find_system().stop_timer()
 
-    def call_in_child(self, function: Callable[..., Any], *arguments: Any) -> Any:
+    def call_in_child(self, function: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
         """Return ``function(*arguments)``, for which a child of this process has the time left.
+
+        Parameters
+        ----------
+        function, *arguments
+            As for `mocapbench.basics.child.call_in_child`.
+        **options
+            Others of its than the time.
 
         Raises
         ------
         TimeoutError
             If it took longer: then the child is killed, and this process is not.
         ProcessDiedError, SystemExit
-            As `mocapbench.benchmark.runs.execution.child.call_in_child` does.
+            As `mocapbench.basics.child.call_in_child` does.
         """
         self.__exit__()
-        result = call_in_child(function, *arguments, timeout=self._left)
+        result = call_in_child(function, *arguments, timeout=self._left, **options)
         self._start_timer()
         return result
 
@@ -60,4 +65,4 @@ class TimeLimit(AbstractContextManager["TimeLimit"]):
         return max(self._end - time.monotonic(), _SHORTEST)
 
     def _start_timer(self) -> None:
-        signal.setitimer(signal.ITIMER_REAL, self._left)
+        find_system().start_timer(self._left)

@@ -7,23 +7,21 @@ what a model does to its process reaches no other job, nor what scores it.
 from __future__ import annotations
 
 import gc
-import signal
 import time
 from collections.abc import Mapping
 from contextlib import suppress
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from mocapbench.basics.processes import adopt_orphans, die_with_parent, kill_children
+from mocapbench.basics.child import ProcessDiedError
+from mocapbench.basics.system.choice import find_system
+from mocapbench.basics.system.starting import forget_safe_path
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.evaluate import evaluate
-from mocapbench.benchmark.runs.execution.child import ProcessDiedError
-from mocapbench.benchmark.runs.execution.fork_server import forget_safe_path
-from mocapbench.benchmark.runs.execution.large_pages import collapse_memory
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
 from mocapbench.benchmark.runs.execution.time_limit import TimeLimit
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
@@ -37,23 +35,17 @@ __all__ = ["load_plugins_once", "prepare_worker", "run_job"]
 
 def prepare_worker() -> None:
     """Make this process a worker: it ends with its parent and computes with one thread."""
-    signal.signal(signal.SIGHUP, signal.SIG_IGN)  # a closed terminal is for the run to deal with
-    die_with_parent()
-    adopt_orphans()
-    # At once when told to, with the child: a worker that winds up holds up the end of a run.
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    signal.signal(signal.SIGALRM, signal.SIG_DFL)
     forget_safe_path()
     # One BLAS thread, so that results do not depend on how many jobs run at once.
     threadpool_limits(1)
     gc.freeze()  # what the libraries hold lives as long as the worker
-    collapse_memory()
+    find_system().become_worker()
 
 
 def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
     """Return the outcome of one job; whatever its model does becomes a failed record.
 
-    A task or a metric that takes too long ends the worker by SIGALRM.
+    A task or a metric that takes too long ends the worker.
 
     Parameters
     ----------
@@ -63,15 +55,15 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
         The recordings that the run has read.
     """
     job, started = work.job, time.perf_counter()
-    libraries = _libraries(config.folders, config.plugins)
-    _add_tasks(config.task_files)
+    prepare = partial(_register_all, config.folders, config.plugins, config.task_files)
+    libraries = prepare()
     _import_code(job.model, job.address.task, job.metrics)
     with suppress(Exception):  # of what fails, `evaluate` gives the reason
         spool.load_ahead(job.digests)
     archive = SpooledArchive(libraries, spool, job.digests)
     try:
         with TimeLimit(config.timeout) as limit:
-            ended = evaluate(work, config, archive, limit.call_in_child)
+            ended = evaluate(work, config, archive, partial(limit.call_in_child, prepare=prepare))
     except TimeoutError:
         ended = Outcome(job.timed_out(config.timeout))
     except MemoryError as error:  # where there is no room for what the child hands back
@@ -80,7 +72,7 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
         message = f"the process died with exit code {error.exit_code} before it could report"
         ended = Outcome(job.record(Status.FAILED, message))
     finally:
-        kill_children()  # what the job started and left running
+        find_system().kill_children()  # what the job started and left running
     return ended._replace(seconds=time.perf_counter() - started)
 
 
@@ -89,6 +81,15 @@ def load_plugins_once(paths: tuple[Path, ...]) -> None:
     """Register what the user's own files define, where this process has not done so."""
     for path in paths:
         load_plugin(path)
+
+
+def _register_all(
+    folders: tuple[Path, ...], plugins: tuple[Path, ...], task_files: tuple[TaskFile, ...]
+) -> Mapping[str, Library]:
+    """Register what is the user's own, where that is not so, and return the libraries."""
+    libraries = _libraries(folders, plugins)
+    _add_tasks(task_files)
+    return libraries
 
 
 @cache

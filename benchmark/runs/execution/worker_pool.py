@@ -1,4 +1,4 @@
-"""Workers, forked from a server that has the libraries loaded."""
+"""Workers, which start when the first job comes."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from pebble import ProcessExpired, ProcessPool
 from pebble.common.types import Result, ResultStatus
 from pebble.pool.process import PoolManager
 
-from mocapbench.benchmark.runs.execution.fork_server import fork_server
 from mocapbench.benchmark.runs.execution.interrupts import interrupts_later
 from mocapbench.benchmark.runs.execution.worker import prepare_worker
+from mocapbench.benchmark.runs.execution.worker_context import worker_context
 
 __all__ = ["WorkerPool"]
 
@@ -72,7 +72,7 @@ class WorkerPool:
         Returns the context in which workers start.
     """
 
-    def __init__(self, n_workers: int, start: Callable[[], BaseContext] = fork_server) -> None:
+    def __init__(self, n_workers: int, start: Callable[[], BaseContext] = worker_context) -> None:
         self._pool = _Pool(
             n_workers, max_tasks=_MOST_JOBS, context=start(), initializer=prepare_worker
         )

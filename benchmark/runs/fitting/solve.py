@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import resource
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
+from mocapbench.basics.system.choice import find_system
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.problems.internals import internals_of
@@ -134,5 +134,4 @@ def _texts(caught: list[warnings.WarningMessage]) -> tuple[str, ...]:
 
 def _peak_memory_mb() -> float:
     """Return the peak of this process, or of a program that it has run if that is higher."""
-    both = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
-    return max(resource.getrusage(each).ru_maxrss for each in both) * 1024 / MIB
+    return find_system().measure_peak() / MIB

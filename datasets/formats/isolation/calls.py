@@ -10,7 +10,6 @@ from __future__ import annotations
 import atexit
 import json
 import os
-import signal
 import subprocess
 import sys
 import threading
@@ -30,6 +29,9 @@ __all__ = ["IsolatedCallError", "call_isolated"]
 # -P, or Python would import from the current folder, where a file of somebody else may be called
 # json.py.
 _COMMAND = (sys.executable, "-P", "-m", "mocapbench.datasets.formats.isolation.process")
+
+_KILLED = -9
+"""The exit code of a process that Linux kills where memory is short."""
 
 
 class IsolatedCallError(Exception):
@@ -77,12 +79,18 @@ class _Process:
             process = self._start_if_stopped()
             # Also if interrupted: the next call would take the answer to this one for its own.
             unless_answered.callback(self.close)
-            timer = threading.Timer(timeout, process.kill)
+            stopped = threading.Event()
+            timer = threading.Timer(timeout, _stop, (process, stopped))
             timer.start()
             try:
                 answer = _answer(process, request)
             except EOFError:
-                raise IsolatedCallError(_death(process.wait(), timeout)) from None
+                exit_code = process.wait()
+                raise IsolatedCallError(
+                    f"no end of reading it within {timeout:.0f} s, or too little memory"
+                    if stopped.is_set() or exit_code == _KILLED
+                    else f"a crash of the library that reads it (exit code {exit_code})"
+                ) from None
             finally:
                 timer.cancel()
             unless_answered.pop_all()
@@ -141,10 +149,10 @@ def _result(answer: bytes) -> Mapping[str, NDArray[Any]]:
     return result
 
 
-def _death(exit_code: int, timeout: float) -> str:
-    if exit_code == -signal.SIGKILL:
-        return f"no end of reading it within {timeout:.0f} s, or too little memory"
-    return f"a crash of the library that reads it (exit code {exit_code})"
+def _stop(process: subprocess.Popen[bytes], stopped: threading.Event) -> None:
+    """Kill a process, and say so: not every system tells it by the exit code."""
+    stopped.set()
+    process.kill()
 
 
 @cache

@@ -7,8 +7,8 @@ one that started it, whose end closes the pipe of requests.
 from __future__ import annotations
 
 import json
+import math
 import os
-import resource
 import sys
 from collections.abc import Mapping
 from importlib import import_module
@@ -16,8 +16,9 @@ from io import BytesIO
 from typing import Any
 
 import numpy as np
-import psutil
 from numpy.typing import NDArray
+
+from mocapbench.basics.system.choice import find_system
 
 __all__ = ["LENGTH", "serve"]
 
@@ -41,21 +42,15 @@ def _call_function(function: str, arguments: list[str], memory: int) -> Mapping[
     module, _, name = function.partition(":")
     try:
         called = getattr(import_module(module), name)
-        _limit(psutil.Process().memory_info().vms + memory)
+        find_system().limit_growth(memory)
         arrays: Mapping[str, NDArray[Any]] = called(*arguments)
     except MemoryError:
         arrays = {"error": np.array("content that takes more memory than a file of its size")}
     except Exception as error:  # whatever a library raises because of a damaged file
         arrays = {"error": np.array(f"{type(error).__name__}: {error}"[:300])}
     finally:
-        _limit(resource.getrlimit(resource.RLIMIT_AS)[1])  # what the system allows
+        find_system().limit_memory(math.inf)
     return arrays
-
-
-def _limit(memory: int) -> None:
-    """Let this process take ``memory`` bytes of addresses."""
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    resource.setrlimit(resource.RLIMIT_AS, (memory, hard))
 
 
 if __name__ == "__main__":

@@ -1,23 +1,22 @@
 """Temporary files and folders, which outlive their maker to the next start of another at most.
 
-All have one kind of name, and their maker holds a lock, as the processes forked from it do: of a
-file itself, and of one in each folder. However a process ends, the system lets go of its locks. So
-what nobody holds was left behind; `sweep` deletes it, once files that count are in their places.
+All have one kind of name, and their maker holds a lock, as the processes forked from it do. However
+a process ends, the system lets go of its locks. So what nobody holds was left behind; `sweep`
+deletes it, once files that count are in their places.
 """
 
 from __future__ import annotations
 
 import errno
-import fcntl
 import os
 import secrets
 import shutil
-import stat
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 
+from mocapbench.basics.system.choice import find_system
 from mocapbench.basics.transactions import finish
 
 __all__ = [
@@ -30,8 +29,8 @@ __all__ = [
 
 PREFIX = ".mocapbench-tmp-"
 """How the names of all temporary files and folders begin."""
-_LOCK = ".gitignore"
-"""The file of a folder that is locked; as it says ``*``, git takes nothing that was left there."""
+_IGNORE = ".gitignore"
+"""The file of a folder that says ``*``, so that git takes nothing that was left there."""
 _BUSY = "another process is writing it; wait for its end, or delete {} if there is none"
 
 
@@ -66,7 +65,7 @@ def temporary_folder(parent: Path, name: str = "") -> Iterator[Path]:
     """
     with ExitStack() as held:
         folder = _make(parent, name, partial(Path.mkdir, mode=0o700), held)
-        (folder / _LOCK).write_text("*\n")
+        (folder / _IGNORE).write_text("*\n")
         try:
             yield folder
         finally:
@@ -77,8 +76,8 @@ def sweep(parent: Path) -> None:
     """Delete what processes of this user left behind in a folder."""
     for path in sorted(parent.glob(f"{PREFIX}*")):
         with suppress(OSError):  # in use, gone just now, another's, or on a system without locks
-            if path.lstat().st_uid == os.geteuid():
-                with _hold(path):
+            if path.lstat().st_uid == _find_user():
+                with find_system().hold_orphan(path):
                     _delete(path)
 
 
@@ -99,7 +98,7 @@ def _make(parent: Path, name: str, make: Callable[[Path], None], held: ExitStack
         except FileExistsError as error:
             raise BlockingIOError(errno.EBUSY, _BUSY.format(path), str(parent / name)) from error
         try:
-            held.enter_context(_hold(path))
+            held.enter_context(find_system().hold(path))
         except (BlockingIOError, FileNotFoundError):  # somebody took it for left behind before
             continue
         except OSError:  # a file system without locks, on which nothing is swept
@@ -107,27 +106,9 @@ def _make(parent: Path, name: str, make: Callable[[Path], None], held: ExitStack
         return path
 
 
-@contextmanager
-def _hold(path: Path) -> Iterator[None]:
-    """Hold the lock of a file or folder within the context.
-
-    Raises
-    ------
-    BlockingIOError
-        If another holds it.
-    FileNotFoundError
-        If it is gone.
-    """
-    of_folder = stat.S_ISDIR(path.lstat().st_mode)
-    lock, create = (path / _LOCK, os.O_CREAT) if of_folder else (path, 0)
-    descriptor = os.open(lock, os.O_RDWR | create | os.O_NOFOLLOW | os.O_NONBLOCK, 0o600)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        if not os.path.samestat(os.fstat(descriptor), lock.stat()):
-            raise FileNotFoundError(path)
-        yield
-    finally:
-        os.close(descriptor)
+def _find_user() -> int:
+    """Return whose files are ours; Windows says that all are those of user 0."""
+    return os.geteuid() if hasattr(os, "geteuid") else 0
 
 
 def _delete(path: Path) -> None:

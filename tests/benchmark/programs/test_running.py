@@ -10,9 +10,9 @@ import time
 import psutil
 import pytest
 
-from mocapbench.basics.processes import set_deadline
+from mocapbench.basics.child import ProcessDiedError, call_in_child
+from mocapbench.basics.deadline import set_deadline
 from mocapbench.benchmark.programs.running import ProgramError, run_program
-from mocapbench.benchmark.runs.execution.child import ProcessDiedError, call_in_child
 
 SECOND_LIMIT = """
 import resource, sys

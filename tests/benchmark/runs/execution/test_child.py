@@ -12,7 +12,7 @@ import numpy as np
 import psutil
 import pytest
 
-from mocapbench.benchmark.runs.execution.child import ProcessDiedError, call_in_child
+from mocapbench.basics.child import ProcessDiedError, call_in_child
 
 
 def _square(number):
@@ -130,7 +130,7 @@ def test_one_that_breaks_its_promise_dies_and_says_why(function, capfd):
 
 def test_what_waits_to_be_printed_is_printed_once():
     program = (
-        "from mocapbench.benchmark.runs.execution.child import call_in_child\n"
+        "from mocapbench.basics.child import call_in_child\n"
         "print('before')\n"
         "call_in_child(print, 'in it', timeout=60)\n"
         "print('after')\n"
@@ -141,17 +141,17 @@ def test_what_waits_to_be_printed_is_printed_once():
 
 LEFT_BEHIND = """
 import os, pathlib, subprocess, sys
-from mocapbench.basics.processes import adopt_orphans, kill_children
-from mocapbench.benchmark.runs.execution.child import call_in_child
+from mocapbench.basics.system.choice import find_system
+from mocapbench.basics.child import call_in_child
 def work():
     shell = f"sleep 600 & echo $! >> {sys.argv[1]}; echo $$ >> {sys.argv[1]}; wait"
     subprocess.Popen(["sh", "-c", shell])
     while len(pathlib.Path(sys.argv[1]).read_text().split()) < 2:
         pass
 pathlib.Path(sys.argv[1]).touch()
-adopt_orphans()
+find_system().become_worker()
 call_in_child(work, timeout=60)
-kill_children()
+find_system().kill_children()
 """
 
 
@@ -168,7 +168,7 @@ def test_it_ends_with_the_process_that_waits_for_it(tmp_path):
     file = tmp_path / "pid"
     program = (
         "import os, pathlib, time\n"
-        "from mocapbench.benchmark.runs.execution.child import call_in_child\n"
+        "from mocapbench.basics.child import call_in_child\n"
         "def work():\n"
         f"    pathlib.Path({str(file)!r}).write_text(str(os.getpid()))\n"
         "    time.sleep(600)\n"
@@ -187,7 +187,7 @@ def test_it_ends_with_the_process_that_waits_for_it(tmp_path):
 
 RUN = """
 import multiprocessing, os, sys, time
-from mocapbench.benchmark.runs.execution.child import call_in_child
+from mocapbench.basics.child import call_in_child
 
 def sleep():
     print(os.getpid(), flush=True)

@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import pytest
 
-from mocapbench.benchmark.runs.execution.child import ProcessDiedError, call_in_child
+from mocapbench.basics.child import ProcessDiedError, call_in_child
 from mocapbench.benchmark.runs.execution.time_limit import TimeLimit
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.runs.execution import large_pages
-from mocapbench.benchmark.runs.execution.child import call_in_child
+from mocapbench.basics.child import call_in_child
+from mocapbench.basics.system import large_pages
 
 SIZE = 16 << 20  # bytes
 

@@ -26,9 +26,9 @@ def pool():
 
 
 def test_workers_come_from_the_server_that_was_started_ahead(pool):
-    bench.fork_server()
+    bench.worker_context()
     servers = {child.pid for child in psutil.Process().children()}
-    bench.fork_server()
+    bench.worker_context()
     assert {child.pid for child in psutil.Process().children()} == servers
     assert pool.submit(os.getppid).result() in servers
 
@@ -69,7 +69,7 @@ def test_programs_that_a_model_starts_find_their_helpers(monkeypatch, tmp_path, 
 
 
 def test_a_server_that_is_loading_does_not_hear_of_an_interrupt():
-    code = "import time; from mocapbench import benchmark as b; b.fork_server(); time.sleep(0.5)"
+    code = "import time; from mocapbench import benchmark as b; b.worker_context(); time.sleep(0.5)"
     with subprocess.Popen(
         [sys.executable, "-c", code], stderr=subprocess.PIPE, text=True, start_new_session=True
     ) as process:

@@ -1,0 +1,1 @@
+"""What depends on the operating system: once by what Linux has, once by what every system has."""
