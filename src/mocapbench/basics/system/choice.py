@@ -6,8 +6,11 @@ import importlib
 import os
 import sys
 from functools import cache
+from typing import TYPE_CHECKING
 
-from mocapbench.basics.system.base import System
+if TYPE_CHECKING:
+    # It imports `multiprocessing`, which must wait until the command line has cleared the path.
+    from mocapbench.basics.system.base import System
 
 __all__ = ["UnknownBackendError", "find_system"]
 
