@@ -55,3 +55,12 @@ def test_a_notebook_runs_once_in_the_folder_given(tmp_path):
 def test_a_cell_that_fails_fails_the_build(tmp_path):
     with pytest.raises(CellExecutionError, match="division by zero"):
         run_notebook(made(tmp_path / "note.ipynb", "1 / 0"), tmp_path)
+
+
+def test_what_is_drawn_stands_below_its_cell_whatever_the_gallery_draws_with(tmp_path, monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    code = "import matplotlib.pyplot as plt\nplt.plot([1, 2])\nplt.show()"
+    path = made(tmp_path / "note.ipynb", code)
+    run_notebook(path, tmp_path)
+    ((*_, output),) = printed(path)
+    assert "image/png" in output.data

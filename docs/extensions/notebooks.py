@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
@@ -16,6 +17,8 @@ _AFTER_THE_GALLERY = 900
 """Sphinx calls what has a higher number later; the gallery, which writes them, has the default."""
 _SLOWEST_START = 600
 """Seconds in which a kernel answers even on a busy machine."""
+_BESIDE_CELLS = "module://matplotlib_inline.backend_inline"
+"""Where a kernel draws by default, which the gallery's own choice for this process would undo."""
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
@@ -36,7 +39,8 @@ def run_notebook(path: Path, folder: Path) -> None:
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     if not any(cell.execution_count for cell in code):
         where = {"metadata": {"path": str(folder)}}
-        NotebookClient(notebook, startup_timeout=_SLOWEST_START, resources=where).execute()
+        client = NotebookClient(notebook, startup_timeout=_SLOWEST_START, resources=where)
+        client.execute(env={**os.environ, "MPLBACKEND": _BESIDE_CELLS})
         nbformat.write(notebook, path)
 
 
