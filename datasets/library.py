@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from abc import ABC, abstractmethod
 from pathlib import Path
 from typing import ClassVar
 
+from mocapbench.basics.path_lists import named_folders
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.digests import content_digest
 from mocapbench.datasets.errors import FetchError, SkeletonUnavailable
@@ -138,14 +138,3 @@ class Library(ABC):
             If the library has none: always, in the base class.
         """
         raise SkeletonUnavailable(key, type(self).__name__)
-
-
-def named_folders(text: str | None) -> tuple[Path, ...]:
-    """Return the folders that an option or a variable names, in the manner of ``PATH``.
-
-    Parameters
-    ----------
-    text : str or None
-        Paths separated by ``os.pathsep``; None names no folder.
-    """
-    return tuple(Path(part) for part in (text or "").split(os.pathsep) if part)

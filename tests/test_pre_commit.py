@@ -32,7 +32,7 @@ def test_pre_commit_takes_them(command, path):
 def test_ours_are_the_checks_of_the_lint_environment():
     tox = configparser.ConfigParser()
     tox.read(ROOT / "tox.ini")
-    checks = re.findall(r"lint: ([a-z -]+[a-z])", tox["testenv:{lint,types}"]["commands"])
+    checks = re.findall(r"lint: ([A-Za-z -]+[a-z])", tox["testenv:{lint,types}"]["commands"])
     (local,) = yaml.safe_load(CONFIG.read_text())["repos"]
     assert [hook["name"] for hook in local["hooks"]] == [
         check.removesuffix(" --check") for check in checks

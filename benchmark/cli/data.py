@@ -12,11 +12,11 @@ from rich.table import Column, Table
 
 from mocapbench import benchmark as bench
 from mocapbench import datasets
+from mocapbench.basics.path_lists import named_folders
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DataDir, Plugins, load_plugins, open_archive
 from mocapbench.benchmark.errors import ExitCode, UsageError
-from mocapbench.datasets import named_folders
 
 if TYPE_CHECKING:
     from mocapbench.datasets import Archive, RecordingStatus

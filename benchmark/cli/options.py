@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench.basics.path_lists import named_folders
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import is_writable
 from mocapbench.benchmark.programs.entrants import locate_plugin, select_entrants
-from mocapbench.datasets import named_folders
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Record, RunDirectory, TaskFile

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench.basics.path_lists import named_folders
 from mocapbench.basics.scratch import sweep_scratch
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.data import fetch_missing
@@ -28,7 +29,6 @@ from mocapbench.benchmark.cli.running.log import require_log, run_log
 from mocapbench.benchmark.cli.running.messages import downloading, fetching
 from mocapbench.benchmark.cli.running.session import Session, end_if_finished
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.datasets import named_folders
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Job, Request, TaskFile

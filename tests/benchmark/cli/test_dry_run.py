@@ -8,16 +8,16 @@ FRAMES = ("run", "--dry-run", "--tasks", "missing-frames", "--models", "trivial"
 
 def test_cases_of_the_same_entrants_stand_together(cli, tmp_path):
     assert cli(*TOY, "--out", tmp_path / "run") == 0
-    assert "toy-interpolation-1 18 jobs = 3 cases × 2 entrants × 3 folds" in cli.printed
+    assert "toy-interpolation-1 12 jobs = 3 cases × 2 entrants × 2 folds" in cli.printed
     assert "cases test 1, test 4, test 9 entrants knn, trivial" in cli.printed
 
 
 def test_it_tells_the_time_and_how_it_knows(cli, tmp_path):
     out = ("--out", tmp_path / "run")
     assert cli(*TOY, *out, "--jobs", 3) == 0
-    assert "18 jobs in" in cli.printed
+    assert "12 jobs in" in cli.printed
     assert "with 3 jobs at once" in cli.printed
-    assert "estimated by the entrant's mean in a run of the developers (18 fits)" in cli.printed
+    assert "estimated by the entrant's mean in a run of the developers (12 fits)" in cli.printed
     assert cli(*(word for word in TOY if word != "--dry-run"), *out, "--folds", 1) == 0
     assert cli(*TOY, *out, "--explain") == 0
     assert "6 done already, 12 to fit and score" in cli.printed

@@ -56,7 +56,7 @@ def test_there_is_no_player_without_a_body_or_without_a_truth(gap):
 def test_scaled_values_are_placed_on_the_spot(posed):
     problem = posed("subject-35-missing", "synthetic right leg")
     solutions = filled(problem, {"right": 0.0, "wrong": 0.5})
-    solved = Solved("subject-35-missing", problem, solutions, archive=archive(None))
+    solved = Solved("subject-35-missing", problem, solutions, archive=archive())
     (picture,) = draw_filled_motion(solved, find_body=scaled_angles)
     truth = picture.truths["truth"]
     heights = truth[..., 1].max(axis=1) - truth[..., 1].min(axis=1)
