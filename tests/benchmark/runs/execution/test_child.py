@@ -14,6 +14,8 @@ import pytest
 
 from mocapbench.basics.child import ProcessDiedError, call_in_child
 
+pytestmark = pytest.mark.forks
+
 
 def _square(number):
     return number**2

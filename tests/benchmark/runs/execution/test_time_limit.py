@@ -11,6 +11,8 @@ import pytest
 from mocapbench.basics.child import ProcessDiedError, call_in_child
 from mocapbench.benchmark.runs.execution.time_limit import TimeLimit
 
+pytestmark = pytest.mark.forks
+
 
 def _timer():
     return signal.getitimer(signal.ITIMER_REAL)[0]

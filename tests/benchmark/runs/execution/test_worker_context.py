@@ -25,6 +25,7 @@ def pool():
     workers.stop()
 
 
+@pytest.mark.forks
 def test_workers_come_from_the_server_that_was_started_ahead(pool):
     bench.worker_context()
     servers = {child.pid for child in psutil.Process().children()}
