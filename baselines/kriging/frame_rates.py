@@ -59,12 +59,12 @@ def restore_frames(recording: Recording, found: Prediction, kept: Index) -> Pred
     The mean is a cubic spline through these and all visible frames; the variance is linear between
     them.
     """
-    if len(kept) == len(recording.times):
+    frames = np.arange(len(recording.times))
+    if np.array_equal(kept, frames):
         return found
     visible = np.flatnonzero(recording.visible.all(axis=1))
     knots = np.union1d(kept, visible)
     mean, variance = _at_knots(recording, found.mean, kept, knots, visible), found.variance
-    frames = np.arange(len(recording.times))
     if variance is not None:
         known = _at_knots(recording, variance, kept, knots, visible)
         known[np.isin(knots, visible)] = 0.0

@@ -56,6 +56,16 @@ def test_a_smooth_motion_that_is_known_at_thirty_frames_is_known_at_all(
     assert (restored.variance[mask] <= 1.0 + 1e-12).all()
 
 
+@pytest.mark.parametrize(("n_frames", "hidden"), [(2, 1), (3, 0), (3, 2)])
+def test_a_recording_of_as_many_frames_as_are_kept_is_filled_at_its_own(n_frames, hidden):
+    times = np.arange(n_frames) / 60.0
+    full = Recording("r", times, times[:, None], ("a",), ("cm",))
+    given_ = full.hide((np.arange(n_frames) == hidden)[:, None])
+    slow, kept = keep_thirty_frames(given_)
+    found = Prediction.around(slow, kept[:, None] / 60.0)
+    np.testing.assert_allclose(restore_frames(given_, found, kept).mean, full.values, atol=1e-12)
+
+
 @pytest.mark.parametrize("rate", [60.0, 120.0])
 def test_pose_kriging_fills_alike_at_any_multiple_of_thirty_frames(rate):
     archive, frames = open_archive(), np.arange(0, 200, 4)
