@@ -1,7 +1,7 @@
 # mocapbench in a container. From a clone:
 #
 #     docker build --tag mocapbench .
-#     docker run --rm --user "$(id -u):$(id -g)" --volume "$PWD:/work" mocapbench
+#     docker run --rm --user "$(id -u):$(id -g)" --volume "$PWD:/data" mocapbench
 #
 # The second line runs the benchmark and writes mocapbench-results/report.html into the current
 # folder. Another command stands after the name: `… mocapbench fill walk.csv`.
@@ -20,8 +20,8 @@ FROM python:3.13-slim
 COPY --from=build /wheels /wheels
 RUN pip install --no-cache-dir "$(echo /wheels/mocapbench-*.whl)[figures,parquet,xlsx]"
 # Whoever runs it may write into the folder that is mounted, and into no other.
-ENV MOCAPBENCH_CACHE=/work/mocapbench-cache MPLCONFIGDIR=/tmp/matplotlib
+ENV MOCAPBENCH_CACHE=/data/mocapbench-cache MPLCONFIGDIR=/tmp/matplotlib
 USER 65534:65534
-WORKDIR /work
+WORKDIR /data
 ENTRYPOINT ["mocapbench"]
 CMD ["run"]

@@ -8,7 +8,6 @@ The original files have the same paths as on the server: joint angles are in Acc
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -17,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from mocapbench.basics.cache import find_cache
+from mocapbench.basics.path_lists import folders_of_recordings
 from mocapbench.datasets.acclaim.errors import AcclaimError
 from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.motion_reader import read_motion
@@ -32,7 +32,7 @@ from mocapbench.datasets.errors import FetchError, SkeletonUnavailable
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.markers.c3d import C3DFormat
 from mocapbench.datasets.keys import MARKERS, split_key
-from mocapbench.datasets.library import Library, named_folders
+from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import Recording
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ class CMULibrary(Library):
         retries: int = 4,
         backoff: float = 0.5,
     ) -> None:
-        super().__init__(*(folders or named_folders(os.environ.get("MOCAPBENCH_DATA"))))
+        super().__init__(*(folders or folders_of_recordings()))
         self.cache_dir: Path = find_cache(cache_dir)
         self.digests: DigestRegistry = DigestRegistry(
             registered_digests() if known is None else known,

@@ -87,8 +87,7 @@ def find_stances(recordings: Sequence[Recording], own: int) -> list[Stance]:
     markers = marker_places(recordings[0].channels, recordings[0].units)
     guides = _find_guides(recordings, recordings[own], markers)
     if len(guides) < FEWEST:
-        none = markers[:0]
-        return [Stance(none, np.zeros((len(r.times), 3)), np.eye(3)) for r in recordings]
+        return [_take_nothing(recording) for recording in recordings]
     shapes = [_follow_guides(recording, guides) for recording in recordings]
     reference = next((shape for k, (_, shape) in enumerate(shapes) if k != own), shapes[own][1])
     return [Stance(markers, path, _rotate(reference, shape)) for path, shape in shapes]
@@ -127,10 +126,15 @@ def find_stance(recording: Recording, reference: Array) -> Stance:
     markers = marker_places(recording.channels, recording.units)
     shape = _average_markers(recording, markers)
     if len(shape) < FEWEST or len(reference) < FEWEST:
-        return Stance(markers[:0], np.zeros((len(recording.times), 3)), np.eye(3))
+        return _take_nothing(recording)
     centre = shape.mean(axis=0)
     path = np.tile(centre, (len(recording.times), 1))
     return Stance(markers, path, _rotate(reference, shape - centre))
+
+
+def _take_nothing(recording: Recording) -> Stance:
+    """Return the stance that leaves a recording as it is."""
+    return Stance(np.zeros((0, 3), np.intp), np.zeros((len(recording.times), 3)), np.eye(3))
 
 
 def _average_markers(recording: Recording, markers: Index) -> Array:

@@ -8,8 +8,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from mocapbench.basics.path_lists import folders_of_recordings
 from mocapbench.basics.words import format_count
-from mocapbench.datasets import RecordingStatus, named_folders
+from mocapbench.datasets import RecordingStatus
 
 __all__ = ["data_totals", "next_data_step"]
 
@@ -56,7 +57,7 @@ def next_data_step(
 
 
 def _list_options(folders: Sequence[Path], plugins: Sequence[Path]) -> Iterator[str]:
-    if folders and tuple(folders) != named_folders(os.environ.get("MOCAPBENCH_DATA")):
+    if folders and tuple(folders) != folders_of_recordings():
         yield from ("--data-dir", os.pathsep.join(map(str, folders)))
     for path in plugins:
         yield from ("--plugin", str(path))

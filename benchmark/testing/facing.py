@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -13,7 +13,7 @@ from mocapbench.baselines.kriging.mirror_images import Image, mirror_image
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.testing.errors import require
 from mocapbench.benchmark.testing.subject import Subject
-from mocapbench.datasets import Recording, joint_positions, joint_trajectories, open_archive
+from mocapbench.datasets import Mask, Recording, joint_positions, joint_trajectories, open_archive
 
 __all__ = [
     "fills_alike_however_it_faces",
@@ -58,11 +58,7 @@ def fills_alike_however_it_faces(subject: Subject) -> None:
 
 def fills_markers_alike_wherever_they_stand(subject: Subject) -> None:
     """Check that markers that are turned about the vertical, and moved, are filled alike."""
-    *training, walk = _marked_walks()
-    model, gap = subject.fit_model(training), np.zeros(walk.values.shape, dtype=bool)
-    gap[15:30, _list_hidden(model, walk)] = True
-    filled = _fill(model, walk, gap).values
-    error = float(np.sqrt(np.mean((filled - walk.values)[gap] ** 2)))
+    model, walk, gap, filled, error = _fill_markers(subject)
     for degrees in _DEGREES:
         moved = _move_markers(walk, degrees)
         expected = _move_markers(walk.with_values(filled), degrees).values
@@ -78,12 +74,8 @@ def fills_markers_alike_wherever_they_stand(subject: Subject) -> None:
 
 def fills_markers_alike_if_mirrored(subject: Subject) -> None:
     """Check that markers are filled alike if left and right change places, training as it is."""
-    *training, walk = _marked_walks()
+    model, walk, gap, filled, error = _fill_markers(subject)
     image = cast("Image", mirror_image(walk.channels))  # names of joints tell their sides
-    model, gap = subject.fit_model(training), np.zeros(walk.values.shape, dtype=bool)
-    gap[15:30, _list_hidden(model, walk)] = True
-    filled = _fill(model, walk, gap).values
-    error = float(np.sqrt(np.mean((filled - walk.values)[gap] ** 2)))
     mirrored = _fill(model, image.of_recording(walk), gap[:, image.order])
     share = float(np.sqrt(np.mean((image.of(mirrored.values) - filled)[gap] ** 2))) / error
     require(
@@ -92,6 +84,15 @@ def fills_markers_alike_if_mirrored(subject: Subject) -> None:
         f"markers that differ by {share:.2g} of their error",
         "learn from mirror images, too, or leave out 'mirrors along'",
     )
+
+
+def _fill_markers(subject: Subject) -> tuple[Any, Recording, Mask, Array, float]:
+    """Return a fitted model, a walk, its gap (N, D), the walk filled (N, D), and the error."""
+    *training, walk = _marked_walks()
+    model, gap = subject.fit_model(training), np.zeros(walk.values.shape, dtype=bool)
+    gap[15:30, _list_hidden(model, walk)] = True
+    filled = _fill(model, walk, gap).values
+    return model, walk, gap, filled, float(np.sqrt(np.mean((filled - walk.values)[gap] ** 2)))
 
 
 def _move_markers(walk: Recording, degrees: float) -> Recording:
@@ -131,7 +132,7 @@ def _marked_walks() -> tuple[Recording, ...]:
     return tuple(joint_trajectories(archive.skeleton(uri), walk) for uri, walk in walks)
 
 
-def _fill(model: object, walk: Recording, gap: Array) -> Recording:
+def _fill(model: object, walk: Recording, gap: Mask) -> Recording:
     (prediction,) = model.impute([walk.hide(gap)])  # type: ignore[attr-defined]
     return walk.with_values(prediction.mean)
 

@@ -6,7 +6,6 @@ user gets it from the repository ``ubisoft/ubisoft-laforge-animation-dataset``.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from dataclasses import replace
 from hashlib import file_digest
@@ -17,13 +16,14 @@ from zipfile import BadZipFile, ZipFile
 
 import numpy as np
 
+from mocapbench.basics.path_lists import folders_of_recordings
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.digests import DigestMismatch
 from mocapbench.datasets.errors import FetchError
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.joints.bvh import BVHFormat
 from mocapbench.datasets.lafan1.hierarchy import parse_hierarchy
-from mocapbench.datasets.library import Library, named_folders
+from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import Recording
 
 __all__ = ["SUBJECTS", "LaFAN1Library"]
@@ -61,7 +61,7 @@ class LaFAN1Library(Library):
     layout: ClassVar[tuple[str, ...]] = (_FILE,)
 
     def __init__(self, *folders: str | Path, expected: str = _DIGEST) -> None:
-        super().__init__(*(folders or named_folders(os.environ.get("MOCAPBENCH_DATA"))))
+        super().__init__(*(folders or folders_of_recordings()))
         self.expected = expected
 
     def where(self, key: str) -> str:

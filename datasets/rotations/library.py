@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import csv
 import gzip
-import os
 from collections.abc import Mapping
 from functools import cache
 from hashlib import sha256
@@ -19,11 +18,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from mocapbench.basics.path_lists import folders_of_recordings
 from mocapbench.datasets.acclaim.motion import FRAME_RATE
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.cmu import CMULibrary
 from mocapbench.datasets.formats.errors import FormatError
-from mocapbench.datasets.library import Library, named_folders
+from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import FrameByChannel, Recording
 from mocapbench.datasets.rotations.body import (
     ROTATION_CHANNELS,
@@ -63,7 +63,7 @@ class RotationLibrary(Library):
     layout: ClassVar[tuple[str, ...]] = ("train/*/*_[1-5].txt*", "test/*/*_1.txt*")
 
     def __init__(self, *folders: str | Path) -> None:
-        super().__init__(*(folders or named_folders(os.environ.get("MOCAPBENCH_DATA"))))
+        super().__init__(*(folders or folders_of_recordings()))
         self._database = CMULibrary(*folders)
 
     def where(self, key: str) -> str:

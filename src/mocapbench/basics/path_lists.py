@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-__all__ = ["named_folders"]
+__all__ = ["folders_of_recordings", "named_folders"]
 
 
 def named_folders(text: str | None) -> tuple[Path, ...]:
@@ -17,3 +17,8 @@ def named_folders(text: str | None) -> tuple[Path, ...]:
         Paths separated by ``os.pathsep``; None names no folder.
     """
     return tuple(Path(part) for part in (text or "").split(os.pathsep) if part)
+
+
+def folders_of_recordings() -> tuple[Path, ...]:
+    """Return the folders that the variable MOCAPBENCH_DATA names."""
+    return named_folders(os.environ.get("MOCAPBENCH_DATA"))

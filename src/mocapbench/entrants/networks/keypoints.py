@@ -88,7 +88,9 @@ def _scale_windows(
         facts: dict[str, Any] = {"verbose_sample": False, "skeleton_graph": None}
         one, true, facts = facing(one, x_supp=true, **facts)  # noqa: PLW2901
         one, true, facts = cube(one, x_supp=true, **facts)  # noqa: PLW2901
-        known.append(one), truths.append(true), said.append(facts)
+        known.append(one)
+        truths.append(true)
+        said.append(facts)
     holes = (hidden[..., columns] & (columns >= 0)).any(axis=-1)
     given = np.where(holes[..., None], 0.0, np.stack(known))
 
@@ -97,8 +99,7 @@ def _scale_windows(
         return np.stack([facing.untransform(cube.untransform(x, **f), **f) for x, f in pairs])
 
     sizes = np.array([np.max(facts["max_sample"] - facts["min_sample"]) / 2 for facts in said])
-    tensors = (torch.tensor(array, dtype=torch.float32) for array in (given, np.stack(truths)))
-    data, truth = tensors
+    data, truth = (torch.tensor(each, dtype=torch.float32) for each in (given, np.stack(truths)))
     return (data, torch.tensor(holes).int(), truth), go_back, sizes[:, None, None, None]
 
 
