@@ -100,12 +100,13 @@ def _shorten_text(text: str) -> str:
 def encode_keys(entries: Mapping[str, KeyEntry]) -> dict[str, Any]:
     """Return what JSON can hold of the parts of each key.
 
-    Each part stands once, under a number: most are the same for most jobs.
+    Each part stands once, under a number: most are the same for most jobs. The order of entries
+    changes nothing: a run that is resumed finds some of them written.
     """
     numbers: dict[tuple[str, str], int] = {}
     keys = {
         key: [*address, [numbers.setdefault(part, len(numbers)) for part in parts.items()]]
-        for key, (address, parts) in entries.items()
+        for key, (address, parts) in sorted(entries.items())
     }
     return {"format": _FORMAT, "parts": list(numbers), "keys": keys}
 

@@ -45,7 +45,8 @@ class ClusterBackend(AbstractContextManager["ClusterBackend"]):
     @property
     def memory(self) -> float:
         """The GiB that fall to one job, on the worker that has the least."""
-        rooms = [room for room in self._client.run(_room).values() if room is not None]
+        found = self._client.run(_room, on_error="ignore").values()  # not of workers just gone
+        rooms = [room for room in found if room is not None]
         return max(MINIMUM_MEMORY, min(rooms)) if rooms else memory_share(self.n_workers)
 
     def start(self, config: WorkerConfig, spool: Spool) -> ClusterExecutor:

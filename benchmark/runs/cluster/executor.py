@@ -22,6 +22,8 @@ __all__ = ["ClusterExecutor"]
 
 _LOOK_AROUND = 5.0
 """Seconds after which new workers get jobs, even if no job has ended."""
+_TRIES = 4
+"""How often in a row a worker may die while it is given what a run brings."""
 
 
 class ClusterExecutor:
@@ -42,7 +44,7 @@ class ClusterExecutor:
         name, files = f"mocapbench-{uuid.uuid4().hex}", read_plugin_files(config.plugins)
         self._plugin = RunPlugin(name, config, files, installation())
         client.register_plugin(ClientWatch(client.id, name))
-        client.register_plugin(self._plugin)
+        _bring(self._plugin, client)
 
     def submit(self, work: Work) -> Future[Outcome]:
         """Have a worker run a job as soon as one is free."""
@@ -111,3 +113,12 @@ class ClusterExecutor:
         with suppress(Exception):  # of a scheduler that is gone, nothing is left to stop
             self._client.cancel(list(futures), force=True)
             self._client.unregister_worker_plugin(self._plugin.name)
+
+
+def _bring(plugin: RunPlugin, client: Client) -> None:
+    """Give every worker what a run brings; if one dies meanwhile, give it again to the others."""
+    for _ in range(_TRIES - 1):
+        with suppress(OSError):
+            client.register_plugin(plugin)
+            return
+    client.register_plugin(plugin)

@@ -118,6 +118,13 @@ def test_a_part_stands_once_however_many_keys_have_it():
     assert (sizes[1] - sizes[0]) / 999 < 220
 
 
+def test_entries_make_one_file_in_whatever_order_they_come():
+    address = Address("t", 1, "c", 0, "label")
+    entries = [(f"{n}", (address, {"seed": f"{n % 2}", "metric": f"{n % 3}"})) for n in range(6)]
+    (first,) = {str(encode_keys(dict(e))) for e in (entries, entries[::-1], entries[3:] + entries)}
+    assert first
+
+
 def test_the_folds_of_a_row_share_what_their_keys_cover():
     request = Request("smoke", ("toy-interpolation-1",), ("trivial", "knn"), folds=20)
     jobs = plan(request, archive_at())
