@@ -101,8 +101,11 @@ class Cluster:
         processes = [*self.workers, self.scheduler]
         for process in processes:
             process.terminate()
-            with suppress(subprocess.TimeoutExpired):
+            try:
                 process.wait(PATIENCE)
+            except subprocess.TimeoutExpired:  # it started, and waits for a scheduler that is gone
+                process.kill()
+                process.wait()
         return processes
 
 
