@@ -17,7 +17,7 @@ from scipy.linalg import cython_lapack
 
 from mocapbench.basics.arrays import Array
 
-__all__ = ["invert", "mirror", "potrf", "potri"]
+__all__ = ["decompose", "invert", "mirror", "potrf", "potri"]
 
 
 def _load_routine(capsule: object) -> Callable[[Array], int]:
@@ -68,6 +68,27 @@ def potri(factor: Array) -> int:
     return _dpotri(factor)
 
 
+def decompose(matrix: Array) -> None:
+    """Overwrite the lower triangle of a symmetric matrix with its Cholesky factor.
+
+    Parameters
+    ----------
+    matrix : ndarray of shape (n, n), n ≥ 1
+        C-ordered. Only the diagonal and what is below it are read.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If the matrix is not numerically positive definite.
+    """
+    minor = potrf(matrix)
+    if minor != 0:
+        raise np.linalg.LinAlgError(
+            f"expected a positive definite matrix, got one of shape {matrix.shape} whose leading "
+            f"minor of order {minor} is not positive: add to its diagonal"
+        )
+
+
 def invert(matrix: Array) -> float:
     """Overwrite a symmetric matrix with its inverse.
 
@@ -88,12 +109,7 @@ def invert(matrix: Array) -> float:
     """
     if not matrix.size:
         return 0.0
-    minor = potrf(matrix)
-    if minor != 0:
-        raise np.linalg.LinAlgError(
-            f"expected a positive definite matrix, got one of shape {matrix.shape} whose leading "
-            f"minor of order {minor} is not positive: add to its diagonal"
-        )
+    decompose(matrix)
     log_determinant = 2.0 * float(np.log(np.diagonal(matrix)).sum())
     potri(matrix)
     mirror(matrix)

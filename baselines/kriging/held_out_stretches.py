@@ -26,10 +26,10 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg.blas import dtrsm
 from scipy.optimize import Bounds, minimize
 
-from mocapbench.baselines.common.cholesky import invert
+from mocapbench.baselines.common.cholesky import decompose, invert
 from mocapbench.basics.arrays import Array, Index
 
 __all__ = [
@@ -40,6 +40,7 @@ __all__ = [
     "choose_evenly",
     "choose_from_both",
     "learn_parameters",
+    "noise_variance",
     "predict_frames",
     "stretch_numbers",
 ]
@@ -73,7 +74,7 @@ class DescribedFrames:
     times: NDArray[np.float64 | np.intp]
     recording: Index
 
-    def at(self, which: Index) -> DescribedFrames:
+    def at(self, which: Index | slice) -> DescribedFrames:
         """Return some of the frames."""
         return DescribedFrames(self.description[which], self.times[which], self.recording[which])
 
@@ -245,21 +246,19 @@ def learn_parameters(
     return np.asarray(found.x)
 
 
-def predict_frames(
-    known: Pairs, across: Pairs, parameters: Array, values: Array
-) -> tuple[Array, Array]:
-    """Return the mean in m frames given n others, and by how much that lessens their variances.
+def predict_frames(covariance: Array, cross: Array, values: Array) -> tuple[Array, Array]:
+    r"""Return the mean in m frames given n others, and by how much that lessens their variances.
 
     C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for Machine Learning, MIT
-    Press, eq. (2.25) and (2.26).
+    Press, eq. (2.25) and (2.26), of which Algorithm 2.1 is followed: with :math:`K = L L^\top`,
+    what is solved by L alone is enough for both.
 
     Parameters
     ----------
-    known : Pairs
-        Of the n frames with themselves.
-    across : Pairs
-        Of the m frames with the n.
-    parameters : ndarray of shape (P,)
+    covariance : ndarray of shape (n, n)
+        Of the n frames, noise included; C-ordered, and overwritten. Its upper triangle is not read.
+    cross : ndarray of shape (m, n)
+        The covariance of the m frames with the n.
     values : ndarray of shape (n, O)
 
     Returns
@@ -267,19 +266,24 @@ def predict_frames(
     mean : ndarray of shape (m, O)
     explained : ndarray of shape (m,)
     """
-    factor, cross = (
-        cho_factor(add_noise(known, parameters), lower=True),
-        across.covariance(parameters),
-    )
-    explained = (cross * cho_solve(factor, cross.T).T).sum(axis=1)
-    return cross @ cho_solve(factor, values), explained
+    decompose(covariance)
+    # BLAS sees the upper triangle Lᵀ in Fortran's order: L⁻¹ of both sides at once.
+    sides = np.concatenate([cross, values.T]).T
+    solved = dtrsm(1.0, covariance.T, sides, trans_a=1, overwrite_b=1)
+    gain, weighted = np.split(solved, [len(cross)], axis=1)
+    return gain.T @ weighted, (gain**2).sum(axis=0)
 
 
 def add_noise(pairs: Pairs, parameters: Array) -> Array:
     """Return the covariance (n, n) of frames with themselves, noise included."""
     covariance = pairs.covariance(parameters)
-    covariance[np.diag_indices_from(covariance)] += np.exp(2.0 * parameters[-1]) + _JITTER
+    covariance[np.diag_indices_from(covariance)] += noise_variance(parameters)
     return covariance
+
+
+def noise_variance(parameters: Array) -> float:
+    """Return what noise adds to the variance of a frame, with what makes factors exist."""
+    return float(np.exp(2.0 * parameters[-1])) + _JITTER
 
 
 def stretch_numbers(

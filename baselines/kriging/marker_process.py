@@ -126,7 +126,8 @@ def predict_marker(
 ) -> tuple[Array, Array]:
     """Return the mean (m, 3) and the variance (m,) of an observation in the frames wanted."""
     known, across = FramePairs.of(frames, frames), FramePairs.of(wanted, frames)
-    mean, explained = predict_frames(known, across, parameters, values)
+    covariance, cross = add_noise(known, parameters), across.covariance(parameters)
+    mean, explained = predict_frames(covariance, cross, values)
     _, drift, _, noise = np.exp(2.0 * parameters)
     # K(t, t): the constants, 1 for the shape, a² for the drift, and ε².
     total = _CONSTANTS + 1.0 + drift + noise

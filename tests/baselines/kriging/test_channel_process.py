@@ -9,7 +9,7 @@ from mocapbench.baselines.kriging.channel_process import (
     predict_channels,
     prior_variances,
 )
-from mocapbench.baselines.kriging.held_out_stretches import DescribedFrames
+from mocapbench.baselines.kriging.held_out_stretches import DescribedFrames, noise_variance
 
 N_FRAMES, SPREAD = 90, np.ones(2)
 
@@ -29,17 +29,19 @@ def values(given, noise, seed=1):
     return (rough - rough.mean(axis=0)) / rough.std(axis=0)
 
 
-def test_predictions_are_those_of_a_dense_gaussian():
+@pytest.mark.parametrize("n_rows", [3, 256])
+def test_predictions_are_those_of_a_dense_gaussian(monkeypatch, n_rows):
+    monkeypatch.setattr(channel_process, "_ROWS", n_rows)
     given, process = frames(), (TYPICAL, np.array([2.0, 3.0]))
     known, wanted = np.arange(20, N_FRAMES), np.arange(20)
     shown = values(given, 0.1)
     covariance = ChannelPairs.of(given, given).covariance(TYPICAL)
-    covariance += np.exp(2 * TYPICAL[-1]) * np.eye(N_FRAMES)
+    covariance += noise_variance(TYPICAL) * np.eye(N_FRAMES)
     gain = covariance[np.ix_(wanted, known)] @ np.linalg.inv(covariance[np.ix_(known, known)])
     rest = np.diag(covariance[np.ix_(wanted, wanted)] - gain @ covariance[np.ix_(known, wanted)])
     mean, variance = predict_channels(given.at(known), shown[known], given.at(wanted), *process)
-    np.testing.assert_allclose(mean, gain @ shown[known], atol=1e-3)
-    np.testing.assert_allclose(variance, np.outer(rest, [2.0, 3.0]), rtol=1e-3)
+    np.testing.assert_allclose(mean, gain @ shown[known], atol=1e-9)
+    np.testing.assert_allclose(variance, np.outer(rest, [2.0, 3.0]), rtol=1e-4)
 
 
 @pytest.mark.parametrize("noise", [0.01, 0.1, 0.5])

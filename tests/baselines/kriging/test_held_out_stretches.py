@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.baselines.kriging.held_out_stretches import HeldOutStretches
+from mocapbench.baselines.kriging.held_out_stretches import HeldOutStretches, predict_frames
 
 seeds = st.integers(0, 2**16)
 STRETCH = np.array([0, 0, 0, 3, 3, 1, 1, 1, 1, 7])
@@ -77,3 +77,14 @@ def test_the_scale_is_the_mean_of_those_of_the_outputs():
 def test_a_covariance_that_is_none_is_refused():
     with pytest.raises(np.linalg.LinAlgError, match="positive definite"):
         assert HeldOutStretches(-np.eye(10), process(0)[1], STRETCH).score
+
+
+@given(seed=seeds)
+def test_predictions_are_those_of_a_dense_gaussian_of_which_half_is_read(seed):
+    covariance, values = process(seed)
+    cross = np.random.default_rng([seed, 1]).normal(size=(3, 10))
+    gain = cross @ np.linalg.inv(covariance)
+    below = np.where(np.tri(10, dtype=bool), covariance, np.nan)
+    mean, explained = predict_frames(below, cross, values)
+    np.testing.assert_allclose(mean, gain @ values, rtol=1e-6, atol=1e-8)
+    np.testing.assert_allclose(explained, (gain * cross).sum(axis=1), rtol=1e-6, atol=1e-8)
