@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -94,6 +94,27 @@ class Archive:
         """
         library, key = self._here(uri)
         return library.skeleton(key)
+
+    def derive(
+        self, uri: str, function: Callable[..., Recording], *arguments: Hashable
+    ) -> Recording:
+        """Return ``function(archive, uri, *arguments)``, which the archive may have kept.
+
+        Parameters
+        ----------
+        uri : str
+        function : callable
+            Reads the recording and its skeleton, and nothing else. One that is defined in a module
+            is known again; what is defined anew each time is computed anew.
+        *arguments
+            Texts, numbers and the like.
+
+        Raises
+        ------
+        Exception
+            Whatever the function raises.
+        """
+        return function(self, uri, *arguments)
 
     def digest(self, uri: str) -> str:
         """Return what identifies the content of a recording, verified.

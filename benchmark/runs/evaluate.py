@@ -62,13 +62,15 @@ def evaluate(
     try:
         find_system().limit_memory(config.memory)
         problem = TASKS.get(job.address.task).case(job.address.case).problem(job.seeds, archive)
+        # Before the fork, which then knows the digests of recordings, as do later jobs.
+        posed = problem_digest(problem)
     except BaseException as error:
         return Outcome(job.record_failure(error, config.memory))
     if work.fit is not None:
-        return Outcome(_record_scores(work, work.fit, problem, config))
+        return Outcome(_record_scores(work, work.fit, problem, posed, config))
     fit, trained, failure = call(attempt_fit, work, problem, config)
     if fit is not None:
-        return Outcome(_record_scores(work, fit, problem, config), fit, trained)
+        return Outcome(_record_scores(work, fit, problem, posed, config), fit, trained)
     assert failure is not None
     return Outcome(failure, None, trained)
 
@@ -106,21 +108,25 @@ def _fit_model(work: Work, problem: Problem[Any]) -> tuple[Fitted, Trained | Non
     return (new.load() if new else fitted), new
 
 
-def _record_scores(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
+def _record_scores(
+    work: Work, fit: Fit, problem: Problem[Any], posed: str, config: WorkerConfig
+) -> Record:
     try:
-        return _score_fit(work, fit, problem, config)
+        return _score_fit(work, fit, problem, posed, config)
     except BaseException as error:
         return work.job.record_failure(error, config.memory)
 
 
-def _score_fit(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
+def _score_fit(
+    work: Work, fit: Fit, problem: Problem[Any], posed: str, config: WorkerConfig
+) -> Record:
     scores, errors = _score_by_each(work.job, problem, fit)
     digests = {f"digest of {uri}": digest for uri, digest in work.job.digests.items()}
     return work.job.record(
         Status.FAILED if errors else Status.OK,
         _explain_errors(errors, scores),
         traceback="\n".join(map(traceback_of, errors)),
-        problem=problem_digest(problem),
+        problem=posed,
         **{**fit.costs, "warnings": (*fit.warnings, *work.remarks)},
         **_keep_scores(scores),
         provenance={**config.provenance, **digests},

@@ -6,21 +6,26 @@ A task that draws from anything but its seeds poses another problem to each of t
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import fields, is_dataclass, replace
+from itertools import chain
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.datasets import Recording
 
-__all__ = ["PosedProblems", "problem_digest"]
+__all__ = ["PosedProblems", "digest_recording", "problem_digest"]
 
 _ROUNDING = ("CPU", "machine", "libc", "BLAS", "python version", "numpy version", "scipy version")
 """The facts of a record that decide how the numbers of a problem are rounded."""
-_FORMAT = 2
+_FORMAT = 3
 """How digests are made; those of another format say nothing about each other."""
+_of_recordings: WeakKeyDictionary[Recording, bytes] = WeakKeyDictionary()
+"""Digests of recordings, which never change and are learnt from in many problems."""
 
 
 def problem_digest(problem: Problem[Any]) -> str:
@@ -31,17 +36,31 @@ def problem_digest(problem: Problem[Any]) -> str:
     problem : Problem
         Its numbers and texts count, and those of the dataclasses, mappings and sequences in it.
     """
+    return f"{_FORMAT}:{_digest(_pieces(problem)).hex()[:16]}"
+
+
+def _digest(pieces: Iterable[bytes]) -> bytes:
     digest = hashlib.sha256()
-    for piece in _pieces(problem):
+    for piece in pieces:
         digest.update(len(piece).to_bytes(8, "big"))
         digest.update(piece)
-    return f"{_FORMAT}:{digest.hexdigest()[:16]}"
+    return digest.digest()
+
+
+def digest_recording(recording: Recording) -> bytes:
+    """Return a digest of a recording, which is computed once."""
+    if recording not in _of_recordings:
+        pieces = chain.from_iterable(map(_pieces, _parts(recording)))
+        _of_recordings[recording] = _digest(pieces)
+    return _of_recordings[recording]
 
 
 def _pieces(value: object) -> Iterator[bytes]:
     """Yield the content of a value; of an object that is not a dataclass, its class alone."""
     yield type(value).__qualname__.encode()
     match value:
+        case Recording():
+            yield digest_recording(value)
         case np.ndarray() if not value.dtype.hasobject:
             yield f"{value.dtype.str} {value.shape}".encode()
             yield np.ascontiguousarray(value).tobytes()

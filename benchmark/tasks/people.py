@@ -167,7 +167,17 @@ def people_problem(
 
 def read_excerpt(people: People, uri: str, features: Features, archive: Archive) -> Recording:
     """Return the middle of a recording at 30 frames per second, at most eight seconds."""
-    recording, step = archive.recording(uri), people.rate(uri) // RATE
+    try:
+        # The same strangers are learnt from in many problems.
+        return archive.derive(uri, _cut_excerpt, people.rate(uri) // RATE, features)
+    except SkeletonUnavailable as error:
+        expected, advice = "a recording with a skeleton", "add its skeleton, or leave it out"
+        raise people.fault(uri, expected, "none", advice) from error
+
+
+def _cut_excerpt(archive: Archive, uri: str, step: int, features: Features) -> Recording:
+    """Return features of the middle of a recording, of which every so many frames are kept."""
+    recording = archive.recording(uri)
     kept = np.arange(0, len(recording.times), step)
     before = max(len(kept) - LONGEST, 0) // 2
     kept = kept[before : before + LONGEST]
@@ -175,11 +185,7 @@ def read_excerpt(people: People, uri: str, features: Features, archive: Archive)
     at_rate = Recording(
         uri, np.arange(len(kept)) / RATE, values, recording.channels, recording.units
     )
-    try:
-        return features(archive.skeleton(uri), at_rate)
-    except SkeletonUnavailable as error:
-        expected, advice = "a recording with a skeleton", "add its skeleton, or leave it out"
-        raise people.fault(uri, expected, "none", advice) from error
+    return features(archive.skeleton(uri), at_rate)
 
 
 def _place_gaps(

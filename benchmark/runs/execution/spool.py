@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import pickle
-from collections.abc import Mapping
+from collections.abc import Callable, Hashable, Mapping
 from functools import lru_cache
 from pathlib import Path
 
@@ -19,11 +19,13 @@ __all__ = ["Spool", "SpooledArchive"]
 
 _KEPT = 8
 """Recordings that a process keeps; what a worker keeps counts as memory of each of its jobs."""
-_AHEAD = 8 << 20
-"""Bytes of the recordings of one job that are loaded ahead at most."""
+_MOST_DERIVED = 48 << 20
+"""Bytes that a process keeps of what was derived from recordings: 300 excerpts of eight seconds."""
 
 
 _Content = tuple[Recording, Skeleton | None]
+_derived: dict[tuple[Hashable, ...], Recording] = {}
+"""By the file, the function and its arguments; what was asked for last comes last."""
 
 
 class Spool:
@@ -69,13 +71,6 @@ class Spool:
         """
         path = self.path(uri, digest)
         return _content(path) if path.exists() else None
-
-    def load_ahead(self, digests: Mapping[str, str]) -> None:
-        """Load recordings for the processes forked from this one, unless they are many or long."""
-        files = self.files(digests)
-        if len(files) <= _KEPT and sum(file.stat().st_size for file in files) <= _AHEAD:
-            for file in files:
-                _content(file)
 
     def files(self, digests: Mapping[str, str]) -> tuple[Path, ...]:
         """Return the files of those recordings that are here."""
@@ -144,5 +139,29 @@ class SpooledArchive(Archive):
             raise SkeletonUnavailable(key, type(library).__name__)
         return skeleton
 
+    def derive(
+        self, uri: str, function: Callable[..., Recording], *arguments: Hashable
+    ) -> Recording:
+        """Return what a function makes of a recording; see `Archive.derive`.
+
+        The process keeps the last ones that were asked for.
+        """
+        if uri not in self.digests:
+            return super().derive(uri, function, *arguments)
+        key = (self.spool.path(uri, self.digests[uri]), function, arguments)
+        made = _derived.pop(key, None)
+        if made is None:
+            made = super().derive(uri, function, *arguments)
+            _make_room(made.values.nbytes)
+        _derived[key] = made
+        return made
+
     def _load_spooled(self, uri: str) -> _Content | None:
         return self.spool.load(uri, self.digests[uri]) if uri in self.digests else None
+
+
+def _make_room(n_bytes: int) -> None:
+    """Forget what was asked for longest ago, as far as there is no room for so many bytes more."""
+    left = _MOST_DERIVED - n_bytes - sum(each.values.nbytes for each in _derived.values())
+    while left < 0 and _derived:
+        left += _derived.pop(next(iter(_derived))).values.nbytes

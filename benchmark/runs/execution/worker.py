@@ -58,8 +58,6 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
     prepare = partial(_register_all, config.folders, config.plugins, config.task_files)
     libraries = prepare()
     _import_code(job.model, job.address.task, job.metrics)
-    with suppress(Exception):  # of what fails, `evaluate` gives the reason
-        spool.load_ahead(job.digests)
     archive = SpooledArchive(libraries, spool, job.digests)
     try:
         with TimeLimit(config.timeout) as limit:

@@ -17,6 +17,7 @@ from mocapbench.basics.whole_files import atomic_write
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.runs.fitting.solve import FitCosts, Fitted
+from mocapbench.benchmark.runs.posed import digest_recording
 
 __all__ = ["Trained", "TrainedModels"]
 
@@ -66,7 +67,7 @@ class Trained:
 
 
 def _digest(problem: Problem[Any]) -> str:
-    return str(joblib.hash((problem.train, problem.process)))
+    return str(joblib.hash((list(map(digest_recording, problem.train)), problem.process)))
 
 
 class TrainedModels:

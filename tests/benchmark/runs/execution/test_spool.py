@@ -55,18 +55,40 @@ def test_it_is_read_once(spooled, library):
 
 
 def test_a_process_loads_it_once(spooled):
-    spooled.spool.load_ahead(spooled.digests)
+    first = spooled.recording(URI)
     spooled.spool.path(URI, spooled.digests[URI]).write_bytes(b"not read again")
-    assert spooled.recording(URI) is spooled.recording(URI)
+    assert spooled.recording(URI) is first
 
 
-@pytest.mark.parametrize("limit", ["_KEPT", "_AHEAD"])
-def test_what_would_take_much_memory_is_not_loaded_ahead(spooled, monkeypatch, limit):
-    monkeypatch.setattr(spool_module, limit, 0)
-    spooled.spool.load_ahead(spooled.digests)
-    spooled.spool.path(URI, spooled.digests[URI]).write_bytes(b"garbled")
-    with pytest.raises(pickle.UnpicklingError):
-        spooled.recording(URI)
+def cut(archive, uri, first, n_frames):
+    return archive.recording(uri).frames(np.arange(first, first + n_frames))
+
+
+@pytest.fixture
+def derived(monkeypatch):
+    monkeypatch.setattr(spool_module, "_derived", {})
+    return spool_module._derived
+
+
+def test_what_is_derived_is_kept_by_function_arguments_and_digest(spooled, derived):
+    first = spooled.derive(URI, cut, 3, 10)
+    assert spooled.derive(URI, cut, 3, 10) is first
+    np.testing.assert_array_equal(first.values, spooled.recording(URI).values[3:13])
+    other = spooled.derive(URI, cut, 4, 10)
+    np.testing.assert_array_equal(other.values, spooled.recording(URI).values[4:14])
+    again = SpooledArchive(spooled.libraries, spooled.spool, {URI: "another"})
+    assert again.derive(URI, cut, 3, 10) is not first
+
+
+def test_of_what_is_derived_the_last_that_was_asked_for_is_kept(spooled, derived, monkeypatch):
+    monkeypatch.setattr(spool_module, "_MOST_DERIVED", 2 * 10 * 62 * 8)
+    first, second = (spooled.derive(URI, cut, start, 10) for start in (0, 1))
+    spooled.derive(URI, cut, 0, 10)
+    third = spooled.derive(URI, cut, 2, 10)
+    assert [*derived.values()] == [first, third]
+    assert spooled.derive(URI, cut, 1, 10) is not second
+    large = spooled.derive(URI, cut, 0, 50)
+    assert [*derived.values()] == [large]
 
 
 def test_what_comes_back_is_the_same(spooled, library):
