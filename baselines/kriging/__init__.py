@@ -3,7 +3,7 @@
 Whole frames:
 
 * `conditioned`: a process given its values at visible frames; `own_course`: one over time alone;
-* `frame_rates`: about 30 frames per second, and all frames again;
+* `frame_rates`: 30 frames per second, and all frames again;
 * `paths`: training recordings matched with a new one; `mirror_images`: the mirror image of a
   motion, and the processes of what a path leaves unexplained of both.
 
