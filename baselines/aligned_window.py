@@ -90,6 +90,9 @@ class AlignedWindow(FrameImputer, Inductive):
     """
 
     family: ClassVar[str] = "Alignment"
+    provides: ClassVar[frozenset[str]] = (
+        FrameImputer.provides | Inductive.provides | {"scales along"}
+    )
 
     max_frames = 8000
 

@@ -99,6 +99,7 @@ class BestOf(Imputer, Inductive):
     """
 
     family: ClassVar[str] = "Several models"
+    provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"scales along"}
 
     max_frames = 1000
 

@@ -92,7 +92,9 @@ class ChannelKriging(Imputer, Inductive):
     """
 
     family: ClassVar[str] = "Across channels"
-    provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"moves along"}
+    provides: ClassVar[frozenset[str]] = (
+        Imputer.provides | Inductive.provides | {"moves along", "scales along"}
+    )
 
     max_frames = 3000
     learns_in_fit = False

@@ -7,6 +7,7 @@ Locomotion Styles*, ICML, cited as HLM.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -155,6 +156,14 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
     True
     """
 
+    provides: ClassVar[frozenset[str]] = (
+        CycleAligner.provides
+        | Imputer.provides
+        | Inductive.provides
+        | Blender.provides
+        | Synthesiser.provides
+        | {"scales along"}
+    )
     max_frames = 500
 
     def __init__(

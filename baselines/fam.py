@@ -135,6 +135,9 @@ class FAM(Imputer, Inductive, Aligner):
     """
 
     family: ClassVar[str] = "Functional"
+    provides: ClassVar[frozenset[str]] = (
+        Imputer.provides | Inductive.provides | Aligner.provides | {"scales along"}
+    )
 
     def __init__(
         self,

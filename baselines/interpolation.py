@@ -36,7 +36,7 @@ class _Interpolation(Interpolator, Inductive):
     """
 
     provides: ClassVar[frozenset[str]] = (
-        Interpolator.provides | Inductive.provides | {"mirrors along"}
+        Interpolator.provides | Inductive.provides | {"mirrors along", "scales along"}
     )
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
@@ -120,7 +120,10 @@ class HoldImputer(_Interpolation):
     array([1., 1., 1., 5.])
     """
 
-    provides: ClassVar[frozenset[str]] = _Interpolation.provides | {"moves along"}
+    provides: ClassVar[frozenset[str]] = _Interpolation.provides | {
+        "moves along",
+        "resamples along",
+    }
 
     @staticmethod
     def _between(knots: Frames, values: Frames, times: Frames) -> Frames:
@@ -162,7 +165,10 @@ class LinearImputer(_Interpolation):
     array([1., 3., 5., 5.])
     """
 
-    provides: ClassVar[frozenset[str]] = _Interpolation.provides | {"moves along"}
+    provides: ClassVar[frozenset[str]] = _Interpolation.provides | {
+        "moves along",
+        "resamples along",
+    }
 
     @staticmethod
     def _between(knots: Frames, values: Frames, times: Frames) -> Frames:

@@ -98,6 +98,7 @@ class KNN(Imputer, Inductive):
     """
 
     family: ClassVar[str] = "Neighbours"
+    provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"scales along"}
 
     max_frames = 2000
 

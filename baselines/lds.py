@@ -113,6 +113,9 @@ class LDS(Imputer, Inductive, Synthesiser):
     """
 
     family: ClassVar[str] = "State space"
+    provides: ClassVar[frozenset[str]] = (
+        Imputer.provides | Inductive.provides | Synthesiser.provides | {"scales along"}
+    )
 
     def __init__(self, n_states: int = 15, *, max_iter: int = 10, tol: float = 1e-3) -> None:
         self.n_states = n_states

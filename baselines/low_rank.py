@@ -103,6 +103,7 @@ class LowRank(Imputer, Inductive):
     """
 
     family: ClassVar[str] = "Across channels"
+    provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"scales along"}
 
     def __init__(
         self,

@@ -96,7 +96,9 @@ class MarkerKriging(Imputer, Inductive):
     """
 
     family: ClassVar[str] = "Across channels"
-    provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"moves along"}
+    provides: ClassVar[frozenset[str]] = (
+        Imputer.provides | Inductive.provides | {"moves along", "scales along"}
+    )
     needs: ClassVar[frozenset[str]] = frozenset({"coordinates"})
 
     def __init__(self, power: float = 4.0) -> None:

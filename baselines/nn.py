@@ -82,6 +82,7 @@ class NN(Imputer, Inductive):
     """
 
     family: ClassVar[str] = "Neighbours"
+    provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"scales along"}
 
     max_frames = 4000
 

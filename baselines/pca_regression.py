@@ -87,6 +87,7 @@ class PCARegression(Imputer, Inductive):
     """
 
     family: ClassVar[str] = "Across channels"
+    provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"scales along"}
 
     def __init__(self, hidden_weight: float = 0.02, *, share: float = 0.99) -> None:
         self.hidden_weight = hidden_weight

@@ -158,7 +158,9 @@ class PoseKriging(FrameImputer, Inductive):
 
     family: ClassVar[str] = "Alignment"
     provides: ClassVar[frozenset[str]] = (
-        FrameImputer.provides | Inductive.provides | {"turns along", "moves along", "mirrors along"}
+        FrameImputer.provides
+        | Inductive.provides
+        | {"turns along", "moves along", "mirrors along", "scales along", "resamples along"}
     )
 
     max_frames = 500

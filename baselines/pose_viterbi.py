@@ -85,6 +85,9 @@ class PoseViterbi(FrameImputer, Inductive):
     """
 
     family: ClassVar[str] = "Alignment"
+    provides: ClassVar[frozenset[str]] = (
+        FrameImputer.provides | Inductive.provides | {"scales along"}
+    )
 
     max_frames = 1000
 

@@ -103,7 +103,7 @@ class RigidBody(Imputer, Inductive):
 
     family: ClassVar[str] = "Across channels"
     provides: ClassVar[frozenset[str]] = (
-        Imputer.provides | Inductive.provides | {"moves along", "mirrors along"}
+        Imputer.provides | Inductive.provides | {"moves along", "mirrors along", "scales along"}
     )
     needs: ClassVar[frozenset[str]] = frozenset({"coordinates"})
 

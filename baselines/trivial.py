@@ -57,6 +57,7 @@ class Trivial(Imputer, Inductive):
     """
 
     family: ClassVar[str] = "References"
+    provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"scales along"}
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the recordings.

@@ -49,6 +49,7 @@ class ConstantVelocity(Forecaster, Inductive):
     """
 
     family: ClassVar[str] = "Forecasts"
+    provides: ClassVar[frozenset[str]] = Forecaster.provides | Inductive.provides | {"scales along"}
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the channels.

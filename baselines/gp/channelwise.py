@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Generic, Self, TypeVar
+from typing import ClassVar, Generic, Self, TypeVar
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -71,6 +71,7 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
     """
 
     family = "Gaussian processes"
+    provides: ClassVar[frozenset[str]] = Imputer.provides | Synthesiser.provides | {"scales along"}
     max_frames = 200
 
     n_components: int | Mapping[str, int] = 1

@@ -11,7 +11,7 @@ from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from joblib import effective_n_jobs
@@ -139,6 +139,9 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
     """
 
     family = "Gaussian processes"
+    provides: ClassVar[frozenset[str]] = (
+        Imputer.provides | Synthesiser.provides | Coregionalised.provides | {"scales along"}
+    )
     max_frames = 200
 
     n_components: int | Mapping[str, int] = 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from mocapbench.baselines.declarations.abilities import describe_abilities
+from mocapbench.baselines.declarations.abilities import describe_abilities, describe_dependences
 from mocapbench.baselines.declarations.needs import describe_needs
 from mocapbench.benchmark.docstrings import source, summary
 from mocapbench.benchmark.errors import UnregisteredNameError
@@ -69,7 +69,7 @@ def model_summary(name: str) -> Mapping[str, Any]:
 
 
 def model_entry(name: str) -> Mapping[str, Any]:
-    """Return what a model is: its sentence and papers, its abilities, needs and parameters."""
+    """Return what a model is: its sentence and papers, what it can do, depends on and needs."""
     kind, model = MODELS.get(name), build_unfitted(name)
     return {
         "name": name,
@@ -77,6 +77,7 @@ def model_entry(name: str) -> Mapping[str, Any]:
         "family": model.family,
         "source": source(kind),
         "abilities": describe_abilities(model.provides),
+        "depends on": describe_dependences(model.provides, model.needs),
         "needs": describe_needs(model.needs),
         "parameters": model.get_params(),
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from mocapbench.baselines.declarations.abilities import describe_dependences
 from mocapbench.benchmark.docstrings import source, summary
 from mocapbench.benchmark.errors import UnregisteredNameError
 from mocapbench.benchmark.registry import MODELS, build_unfitted
@@ -30,4 +31,6 @@ def _info(name: str, parameters: Mapping[str, object]) -> ModelInfo:
         model = MODELS.get(name)
     except UnregisteredNameError:
         return ModelInfo(name, parameters=text)
-    return ModelInfo(name, summary(model), source(model), build_unfitted(name).family, text)
+    unfitted = build_unfitted(name)
+    depends_on = ", ".join(describe_dependences(unfitted.provides, unfitted.needs))
+    return ModelInfo(name, summary(model), source(model), unfitted.family, text, depends_on)

@@ -19,6 +19,7 @@ __all__ = [
     "fills_alike_however_it_faces",
     "fills_markers_alike_if_mirrored",
     "fills_markers_alike_wherever_they_stand",
+    "load_marked_walks",
     "rotate_motion",
 ]
 
@@ -88,7 +89,7 @@ def fills_markers_alike_if_mirrored(subject: Subject) -> None:
 
 def _fill_markers(subject: Subject) -> tuple[Any, Recording, Mask, Array, float]:
     """Return a fitted model, a walk, its gap (N, D), the walk filled (N, D), and the error."""
-    *training, walk = _marked_walks()
+    *training, walk = load_marked_walks()
     model, gap = subject.fit_model(training), np.zeros(walk.values.shape, dtype=bool)
     gap[15:30, _list_hidden(model, walk)] = True
     filled = _fill(model, walk, gap).values
@@ -126,7 +127,8 @@ def _walks() -> tuple[Recording, ...]:
 
 
 @cache
-def _marked_walks() -> tuple[Recording, ...]:
+def load_marked_walks() -> tuple[Recording, ...]:
+    """Return 50 frames of each of three generated walks, as joints in space."""
     archive = open_archive()
     walks = zip(_WALKS, _walks(), strict=True)
     return tuple(joint_trajectories(archive.skeleton(uri), walk) for uri, walk in walks)

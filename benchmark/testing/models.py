@@ -9,7 +9,7 @@ from typing import Any
 from sklearn.base import clone
 
 from mocapbench.baselines import ABILITIES, IMPLIED, NEEDS, Model
-from mocapbench.benchmark.testing import abilities, facing, imputers, layers
+from mocapbench.benchmark.testing import abilities, facing, imputers, layers, units_and_rates
 from mocapbench.benchmark.testing.errors import (
     global_randomness_untouched,
     raised_by,
@@ -164,6 +164,8 @@ _OF_ABILITY: Mapping[str, tuple[ModelCheck, ...]] = {
     "turns along": (facing.fills_alike_however_it_faces,),
     "moves along": (facing.fills_markers_alike_wherever_they_stand,),
     "mirrors along": (facing.fills_markers_alike_if_mirrored,),
+    "scales along": (units_and_rates.fills_alike_in_any_unit,),
+    "resamples along": (units_and_rates.fills_markers_alike_at_any_frame_rate,),
     "draws samples": (abilities.draws_samples,),
     "clusters": (abilities.clusters_every_recording, abilities.makes_one_cluster_of_one_style),
     "aligns": (abilities.aligns_every_frame,),

@@ -43,6 +43,8 @@ class ModelInfo:
         The rows of the report under which it stands.
     parameters : str
         Those that the entrant sets, such as ``"n_components=3"``; empty where all are defaults.
+    depends_on : str
+        What of a motion fills depend on that others leave out, such as its unit.
     """
 
     name: str
@@ -50,6 +52,7 @@ class ModelInfo:
     source: str = ""
     family: str = FAMILIES[_YOURS]
     parameters: str = ""
+    depends_on: str = ""
 
     @property
     def is_ours(self) -> bool:

@@ -303,6 +303,24 @@ class RightHanded(PCARegression):
     provides = PCARegression.provides | {"mirrors along"}
 
 
+class OneLength(_Mean):
+    """Adds one, whatever the unit."""
+
+    provides = _Mean.provides | {"scales along"}
+
+    def impute(self, recordings):
+        return [
+            Prediction.around(r, p.mean + 1.0)
+            for r, p in zip(recordings, super().impute(recordings), strict=True)
+        ]
+
+
+class OneRate(PoseViterbi):
+    """Counts frames, whatever the time between two."""
+
+    provides = PoseViterbi.provides | {"resamples along"}
+
+
 class Overwrites(_Mean):
     """Puts its mean over what is visible."""
 
@@ -436,6 +454,8 @@ NONCONFORMING = {
     Pretends: "expected impute_uncalibrated to have the means of impute, got a difference of",
     FirstOnly: "recordings in another order, got a difference of",
     RightHanded: "the same fill of markers whose left and right have changed places, got markers",
+    OneLength: "the same fill in mm and rad as in cm and deg.*leave out 'scales along'",
+    OneRate: "the same fill of markers at 60 frames per second .*leave out 'resamples along'",
     Surveyor: "the same fill of markers that are turned by 90° and moved, got markers that differ",
     Compass: "the same fill of a walk that is turned by 90° and moved, got joints that differ",
     FirstOfNames: "recordings with other names, got a difference of",

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from mocapbench.baselines import ABILITIES, Imputer
+from mocapbench.baselines.declarations.abilities import DEPENDENCES
 from mocapbench.benchmark.catalogue.entries import (
     entrant_entry,
     library_entry,
@@ -44,9 +45,20 @@ def test_markup_and_leading_line_breaks_are_left_out():
 
 
 def test_an_ability_that_follows_from_another_is_not_named():
-    assert model_entry("knn")["abilities"] == ["fills any gaps", "new recordings too"]
+    expected = ["fills any gaps", "new recordings too", "fills alike in any unit"]
+    assert model_entry("knn")["abilities"] == expected
     assert "fills any gaps" not in model_entry("cubic-spline")["abilities"]
     assert "fills gaps of whole frames" in model_entry("pose-viterbi")["abilities"]
+
+
+def test_what_fills_depend_on_is_named():
+    assert model_entry("pose-kriging")["depends on"] == []
+    assert model_entry("ridge-forecast")["depends on"] == ["the unit"]
+    facing = "where markers stand and face"
+    assert model_entry("gpdm")["depends on"] == [*DEPENDENCES.values()]
+    assert model_entry("lds")["depends on"][:2] == ["where joint angles face", facing]
+    assert model_entry("rigid-body")["depends on"] == ["the frame rate"]
+    assert model_entry("k-means")["depends on"] == []
 
 
 @pytest.mark.parametrize("name", TASKS.names())

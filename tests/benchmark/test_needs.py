@@ -18,6 +18,7 @@ from mocapbench.baselines import (
     Prediction,
     protocols,
 )
+from mocapbench.baselines.declarations.abilities import DEPENDENCES
 from mocapbench.baselines.declarations.needs import find_met_needs
 from mocapbench.benchmark.catalogue.entries import model_entry
 from mocapbench.benchmark.errors import UsageError
@@ -123,8 +124,7 @@ def test_a_model_provides_what_the_classes_promise_that_it_inherits(name):
     kind = MODELS.get(name)
     promised = set().union(*(each.provides for each in PROTOCOLS if issubclass(kind, each)))
     assert promised <= kind.provides
-    along = {"turns along", "moves along", "mirrors along"}
-    assert kind.provides - promised <= {"replays", *along}
+    assert kind.provides - promised <= {"replays", *DEPENDENCES}
 
 
 def test_a_model_of_two_bases_has_what_each_provides_and_needs():
