@@ -9,6 +9,7 @@ import tempfile
 import pytest
 
 from mocapbench.basics.scratch import scratch_folder
+from mocapbench.basics.system.base import LOCK
 
 HOLD_ONE = (
     "import os, time\n"
@@ -36,6 +37,10 @@ def other():
         process.kill()
 
 
+def list_folders(parent):
+    return {path for path in parent.iterdir() if path.suffix != LOCK}
+
+
 def test_it_goes_with_the_context(tmp_path):
     with scratch_folder() as folder:
         (folder / "file").write_text("mine")
@@ -50,21 +55,22 @@ def test_it_goes_with_an_error(tmp_path):
 
 
 def test_that_of_a_living_process_is_left_alone(tmp_path, other):
-    (theirs,) = tmp_path.iterdir()
+    (theirs,) = list_folders(tmp_path)
     with scratch_folder() as ours:
-        assert set(tmp_path.iterdir()) == {ours, theirs}
+        assert list_folders(tmp_path) == {ours, theirs}
     assert (theirs / "file").read_text() == "mine"
 
 
 def test_that_of_a_killed_process_goes_when_the_next_is_made(tmp_path, other):
-    (theirs,) = tmp_path.iterdir()
+    (theirs,) = list_folders(tmp_path)
     other.send_signal(signal.SIGKILL)
     other.wait()
     assert theirs.exists()
     with scratch_folder() as ours:
-        assert list(tmp_path.iterdir()) == [ours]
+        assert list_folders(tmp_path) == {ours}
 
 
+@pytest.mark.forks
 def test_it_lives_while_a_child_of_its_killed_maker_does(tmp_path):
     fork = HOLD_ONE.replace("    os.write", "    os.fork()\n    os.write", 1)
     with subprocess.Popen(

@@ -11,10 +11,12 @@ import subprocess
 import sys
 from itertools import count
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from mocapbench.basics import temporaries
+from mocapbench.basics.system import portable
 from mocapbench.basics.temporaries import (
     PREFIX,
     final_place,
@@ -67,6 +69,15 @@ def lay_out(folder):
     return folder
 
 
+@pytest.fixture(params=["linux", "portable"])
+def backend(request, monkeypatch):
+    """Each on a system of its own: on Linux, the portable one leaves what has no lock."""
+    monkeypatch.setenv("MOCAPBENCH_BACKEND", request.param)
+    if request.param == "portable":
+        monkeypatch.setattr(portable, "sys", SimpleNamespace(platform="darwin"))
+
+
+@pytest.mark.usefixtures("backend")
 def test_killed_at_any_moment_all_files_change_or_none_does(tmp_path):
     ends, moment = [], count()
     while die_at(number := next(moment), update, lay_out(tmp_path / f"{number}")):
@@ -81,6 +92,7 @@ def test_killed_at_any_moment_all_files_change_or_none_does(tmp_path):
     assert len(ends) - changed > 4
 
 
+@pytest.mark.usefixtures("backend")
 def test_killed_at_any_moment_a_sweep_loses_nothing(tmp_path):
     """Neither does the second one, which finds what the first left."""
     moment = count()
@@ -95,6 +107,7 @@ def test_killed_at_any_moment_a_sweep_loses_nothing(tmp_path):
     assert number > 4
 
 
+@pytest.mark.usefixtures("backend")
 def test_killed_at_any_moment_one_file_is_old_or_new(tmp_path):
     moment = count()
     while die_at(number := next(moment), write_text, lay_out(tmp_path / f"{number}") / "a", "new"):
@@ -130,6 +143,7 @@ sweep(Path(sys.argv[1]))
 """
 
 
+@pytest.mark.forks
 @pytest.mark.parametrize("make", [temporary_folder, temporary_file])
 def test_what_was_swept_before_it_was_locked_is_made_again(tmp_path, monkeypatch, make):
     """Another process takes it for left behind in the moment between."""
@@ -149,6 +163,7 @@ def test_what_was_swept_before_it_was_locked_is_made_again(tmp_path, monkeypatch
         assert path != made[0]
 
 
+@pytest.mark.forks
 def test_a_process_forked_from_the_maker_keeps_it(tmp_path):
     read, write = os.pipe()
     maker = os.fork()
@@ -166,6 +181,7 @@ def test_a_process_forked_from_the_maker_keeps_it(tmp_path):
         sweep(tmp_path)
 
 
+@pytest.mark.forks
 def test_git_takes_nothing_of_what_was_left(tmp_path):
     folder = lay_out(tmp_path / "folder")
     _decide_only(folder)
@@ -176,6 +192,7 @@ def test_git_takes_nothing_of_what_was_left(tmp_path):
 
 
 @pytest.mark.parametrize("inner", ["decided", "obsolete"])
+@pytest.mark.usefixtures("backend")
 def test_a_link_that_somebody_sent_is_not_followed(tmp_path, inner):
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "file").write_text("mine")

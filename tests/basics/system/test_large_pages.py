@@ -10,6 +10,8 @@ import pytest
 from mocapbench.basics.child import call_in_child
 from mocapbench.basics.system import large_pages
 
+pytestmark = pytest.mark.forks
+
 SIZE = 16 << 20  # bytes
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, suppress
@@ -146,8 +147,8 @@ class Portable:
                 lock.unlink(missing_ok=True)
 
     def hold_orphan(self, path: Path) -> AbstractContextManager[None]:  # noqa: D102
-        if not _name_lock(path).exists():
-            raise BlockingIOError(str(path))
+        if sys.platform == "linux" and not _name_lock(path).exists():
+            raise BlockingIOError(str(path))  # by that backend, which locks the path itself
         return self.hold(path)
 
     def is_held(self, lock: Path) -> bool:  # noqa: D102
