@@ -1,10 +1,11 @@
-"""Folders to write to, and what errors of the system say."""
+"""Names of files, folders to write to, and what errors of the system say."""
 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable
-from pathlib import Path
+from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from mocapbench.basics.whole_files import LONGEST_NAME
 from mocapbench.benchmark.errors import UsageError
@@ -12,6 +13,8 @@ from mocapbench.benchmark.errors import UsageError
 __all__ = [
     "ENTRIES",
     "GAPS",
+    "is_file_name",
+    "is_path_below",
     "is_writable",
     "require_short_names",
     "require_writable_folder",
@@ -22,6 +25,35 @@ ENTRIES = ".entries.csv"
 """How the name of a table of filled entries ends, which `mocapbench fill` writes beside a file."""
 GAPS = ".gaps.csv"
 """How the name of its table of gaps ends."""
+_DEVICE = re.compile(r"(?i)(con|prn|aux|nul|(com|lpt)[0-9¹²³]) *(\..*)?")
+"""What Windows takes as the name of a device, in every folder, whatever its suffix."""
+_FILE_NAME = re.compile(r"""[^\x00-\x1f"*/:<>?\\|]*[^\x00-\x1f"*/:<>?\\|. ]""")
+"""What Windows takes as the name of a file, from whose end it drops dots and spaces."""
+
+
+def is_file_name(name: str) -> bool:
+    r"""Return whether every system takes a text as the name of a file.
+
+    Examples
+    --------
+    >>> from mocapbench.benchmark.files import is_file_name
+    >>> [is_file_name(name) for name in ("walk.csv", "aux.csv", r"day\walk.csv", "walk.")]
+    [True, False, False, False]
+    """
+    return bool(_FILE_NAME.fullmatch(name)) and not _DEVICE.fullmatch(name)
+
+
+def is_path_below(path: str) -> bool:
+    r"""Return whether a path stays below a folder, also where backslashes separate folders.
+
+    Examples
+    --------
+    >>> from mocapbench.benchmark.files import is_path_below
+    >>> [is_path_below(path) for path in ("day/walk.csv", r"..\walk.csv", r"\\server\walk.csv")]
+    [True, False, False]
+    """
+    kinds = PurePosixPath(path), PureWindowsPath(path)
+    return not any(kind.anchor or ".." in kind.parts for kind in kinds)
 
 
 def is_writable(folder: Path) -> bool:

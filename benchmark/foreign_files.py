@@ -55,7 +55,8 @@ Name = Annotated[str, Meta(max_length=10_000)]
 """Of a task, a case, an entrant, a file or a metric."""
 Text = Annotated[str, Meta(max_length=1_000_000)]
 """A message, a traceback, or what a task file says."""
-_FILE_NAME = r"[!-\-0-~][ -.0-~]{0,99}"  # of ASCII, without a slash, and no dot at its beginning
+_FILE_NAME = r"[!#-)+,\-0-9;=@-\[\]-{}~][ !#-)+-.0-9;=@-\[\]-{}~]{0,99}"
+"""Of ASCII without what Windows takes in no name of a file, and no dot at its beginning."""
 Key = Annotated[str, Meta(pattern=rf"\A{_FILE_NAME}\Z")]
 """What names a file of a run directory; never a path that leads out of it."""
 Index = Annotated[int, Meta(ge=0, le=10_000_000)]

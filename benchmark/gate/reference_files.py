@@ -21,6 +21,7 @@ from mocapbench.basics.temporaries import sweep
 from mocapbench.basics.whole_files import encode_text, write_together
 from mocapbench.basics.words import printable
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.files import is_file_name
 from mocapbench.benchmark.foreign_files import (
     Finite,
     ForeignFileError,
@@ -172,9 +173,9 @@ def _require_lines(values: Iterable[Series]) -> None:
 
 
 def _require_file_names(tasks: Iterable[str]) -> None:
-    """Refuse what would be written outside the folder, or under a name that cannot be shown."""
+    """Refuse what is no name of a file on every system, or a name that cannot be shown."""
     for task in tasks:
-        if task != Path(printable(task)).name:
+        if task != printable(task) or not is_file_name(f"{task}.csv"):
             raise UsageError(
                 f"--update: expected a task whose name can be that of a file, got {task!r}; "
                 "rename it, or name a .csv file for all tasks"

@@ -63,7 +63,7 @@ class Document:
         except ForeignFileError as error:
             raise TaskFileError(
                 f"{self.file}: expected TOML, got: {error}; write lines such as folds = 5, "
-                'texts in quotes, and lists such as ["hip.*", "knee.*"]'
+                'texts in quotes, with / between folders, and lists such as ["hip.*", "knee.*"]'
             ) from error
         return document
 

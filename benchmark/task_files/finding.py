@@ -67,11 +67,9 @@ def _matching(
 
 
 def _files(pattern: str, folder: Path) -> list[str]:
-    return [
-        path.relative_to(folder).as_posix()
-        for path in sorted(folder.glob(pattern))
-        if _is_recording(path)
-    ]
+    """Return the paths that match; a task file of Windows has backslashes between folders."""
+    found = [*folder.glob(pattern)] or [*folder.glob(pattern.replace("\\", "/"))]
+    return [path.relative_to(folder).as_posix() for path in sorted(found) if _is_recording(path)]
 
 
 def _is_recording(path: Path) -> bool:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from mocapbench.basics.words import encodable
+from mocapbench.benchmark.files import is_path_below
 from mocapbench.benchmark.formats import format_for, read_measured
 from mocapbench.datasets import FormatError, Library, Recording, Skeleton, SkeletonUnavailable
 from mocapbench.datasets.digests import content_digest
@@ -34,8 +35,8 @@ class FolderLibrary(Library):
 
     def where(self, key: str) -> str:
         """Return the path of the file, or an empty string; never one outside the folders."""
-        path = PurePosixPath(_split(key)[0])
-        if path.is_absolute() or ".." in path.parts:
+        path = _split(key)[0]
+        if not is_path_below(path):
             return ""
         files = (folder / path for folder in self.folders)
         return next((str(file) for file in files if file.is_file()), "")

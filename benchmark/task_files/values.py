@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from pathlib import PurePosixPath
 from typing import Annotated, Any
 
 from msgspec import Meta
 
+from mocapbench.benchmark.files import is_path_below
 from mocapbench.benchmark.foreign_files import ForeignFileError, Name, fit_schema
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.selection import Span, parse_span
@@ -33,10 +33,7 @@ def is_text(value: Any) -> bool:
 
 def is_path(value: Any) -> bool:
     """Return whether a value is a path or pattern that stays below a folder, without a colon."""
-    if not is_text(value) or ":" in value:
-        return False
-    path = PurePosixPath(value)
-    return not path.is_absolute() and ".." not in path.parts
+    return is_text(value) and ":" not in value and is_path_below(value)
 
 
 def is_count(value: Any) -> bool:

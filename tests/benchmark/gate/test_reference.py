@@ -57,7 +57,7 @@ def test_a_name_that_breaks_a_line_is_refused(tmp_path, name):
     assert [*tmp_path.iterdir()] == []
 
 
-@pytest.mark.parametrize("task", ["../t", "/t", "a/b", "t\x1b[2J", "t\0"])
+@pytest.mark.parametrize("task", ["../t", "/t", "a/b", "t\x1b[2J", "t\0", r"a\b", "t:", "CON"])
 def test_a_task_that_names_no_file_of_the_folder_is_refused(tmp_path, task):
     reference = Reference({_series(task=task): {0: 1.0}}, ABOUT)
     with pytest.raises(UsageError, match="expected a task whose name can be that of a file"):

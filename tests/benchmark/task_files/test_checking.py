@@ -35,6 +35,13 @@ WRONG = [
         'files = "/a.csv"\n[hide]\nfraction = 0.2',
         r"line 1, key files: .*without .. and : and a leading /",
     ),
+    *(
+        (
+            f"files = '{path}'\n[hide]\nfraction = 0.2",
+            r"line 1, key files: .*without .. and : and a leading /",
+        )
+        for path in (r"..\*.csv", r"\a.csv", r"\\server\a.csv", r"C:\a.csv")
+    ),
     (
         'files = "*.c3d"\n[hide]\nfraction = 0.2',
         r"line 1, key files: .* that match '\*.c3d', got none; .* it holds a.csv and b.csv",
@@ -236,6 +243,14 @@ def test_what_cannot_be_is_refused_with_the_place(check, text, message):
         check(text)
     assert re.match(r"my.toml(, line \d+)?, key ", str(refused.value))
     assert "; " in str(refused.value)  # what to do
+
+
+def test_folders_are_found_with_backslashes_between_them_too(folder):
+    for name in "cd":
+        write_csv(folder / "monday" / f"{name}.csv")
+    text = "files = 'monday\\*.csv'\ntraining = 'monday\\[cd].csv'\n[hide]\nfraction = 0.2"
+    found = check_document(Document("my.toml", text), folder)
+    assert found.tests == found.training == ("monday/c.csv", "monday/d.csv")
 
 
 def test_metrics_of_joints_are_accepted_for_whole_motions_with_a_skeleton(tmp_path):

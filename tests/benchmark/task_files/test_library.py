@@ -1,3 +1,5 @@
+import os
+
 import pytest
 from own_files import write_csv
 
@@ -18,8 +20,16 @@ def test_recordings_have_their_paths_as_keys(archive):
         archive.recording("files:c.csv")
 
 
-@pytest.mark.parametrize("key", ["../recordings/a.csv", "below/../a.csv", "/etc/hosts"])
+@pytest.mark.parametrize(
+    "key",
+    [
+        *("../recordings/a.csv", "below/../a.csv", "/etc/hosts"),
+        *(r"..\recordings\a.csv", r"below\..\a.csv", r"\a.csv", r"\\server\a.csv"),  # of Windows
+    ],
+)
 def test_nothing_outside_the_folder_is_there(archive, folder, key):
+    if os.sep == "/":  # then it is a name
+        (folder / key.replace("/", "\\")).touch()
     assert not archive.available(f"files:{key}")
     assert not archive.available(f"files:{folder / 'a.csv'}")
 
