@@ -1,4 +1,11 @@
-from .archives import archive_at, fetch_command, recording_names, require_recordings
+from .archives import (
+    advise_supply,
+    archive_at,
+    explain_fetching,
+    fetch_command,
+    recording_names,
+    require_recordings,
+)
 from .catalogue.entries import (
     entrant_entry,
     format_entry,
@@ -114,6 +121,7 @@ __all__ = [
     "UsageError",
     "WorkerConfig",
     "add_tasks",
+    "advise_supply",
     "archive_at",
     "bundle",
     "check",
@@ -137,6 +145,7 @@ __all__ = [
     "entrant_entry",
     "error_parts",
     "explain",
+    "explain_fetching",
     "explanation_table",
     "fetch_command",
     "find_cases",

@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import os
 import shlex
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
+from mocapbench.basics.words import join_names
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES
 from mocapbench.datasets import Archive
 
 __all__ = [
+    "advise_supply",
     "archive_at",
+    "explain_fetching",
     "fetch_command",
     "fetch_start",
     "recording_names",
     "require_recordings",
 ]
+
+_SHOWN = 2
+"""Names of recordings in a message, if they are many."""
 
 
 def archive_at(*folders: str | Path) -> Archive:
@@ -46,6 +52,37 @@ def archive_at(*folders: str | Path) -> Archive:
 def fetch_command(uris: Iterable[str], plugins: Iterable[Path]) -> str:
     """Return the command that gets recordings, of libraries that plug-in files define too."""
     return f"{fetch_start(plugins)} {shlex.join(recording_names(uris))}"
+
+
+def explain_fetching(
+    uris: Sequence[str], archive: Archive, command: Callable[[Sequence[str], str], str]
+) -> str:
+    """Return how recordings are got that are not here.
+
+    Parameters
+    ----------
+    uris : sequence of str
+    archive : Archive
+    command : callable
+        Returns what to say of recordings that can be downloaded, and of "them", or of "2 of them"
+        if others cannot, which a user supplies.
+    """
+    fetched = [uri for uri in uris if not archive.advice(uri)]
+    those = "them" if len(fetched) == len(uris) else f"{len(fetched)} of them"
+    first = [command(fetched, those)] if fetched else []
+    return "; ".join([*first, *advise_supply(uris, archive)])
+
+
+def advise_supply(uris: Iterable[str], archive: Archive) -> list[str]:
+    """Return what to do about recordings that cannot be downloaded, which a user supplies."""
+    supplied: dict[str, list[str]] = {}
+    for uri in uris:
+        supplied.setdefault(archive.advice(uri), []).append(uri)
+    return [
+        f"{join_names(named, _SHOWN)} cannot be downloaded: {advice}"
+        for advice, named in supplied.items()
+        if advice
+    ]
 
 
 def fetch_start(plugins: Iterable[Path]) -> str:

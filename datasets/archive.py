@@ -136,6 +136,11 @@ class Archive:
             ["mocapbench", "data", "fetch", *(u.removeprefix(_DEFAULT) for u in uris)]
         )
 
+    def advice(self, uri: str) -> str:
+        """Return how a user gets a recording that cannot be downloaded; empty if it can."""
+        library, key = self._resolve(uri)
+        return library.advice(key)
+
     def fetch(self, uris: Iterable[str]) -> list[RecordingStatus]:
         """Make recordings available; those that are here and right are left alone.
 
@@ -186,7 +191,8 @@ class Archive:
     def _here(self, uri: str) -> tuple[Library, str]:
         library, key = self._resolve(uri)
         if not library.where(key):
-            raise RecordingUnavailable(uri, self.fetch_command(uri))
+            remedy = library.advice(key) or f"get it with: {self.fetch_command(uri)}"
+            raise RecordingUnavailable(uri, remedy)
         return library, key
 
     def _resolve(self, uri: str) -> tuple[Library, str]:

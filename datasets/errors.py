@@ -12,17 +12,17 @@ class RecordingUnavailable(LookupError):  # noqa: N818
     ----------
     uri : str
         Address of the recording.
-    command : str
-        The command that gets it.
+    remedy : str
+        How to get it.
     """
 
-    def __init__(self, uri: str, command: str) -> None:
-        super().__init__(uri, command)
+    def __init__(self, uri: str, remedy: str) -> None:
+        super().__init__(uri, remedy)
         self.uri = uri
-        self.command = command
+        self.remedy = remedy
 
     def __str__(self) -> str:
-        return f"{self.uri} is not on this machine; get it with: {self.command}"
+        return f"{self.uri} is not on this machine; {self.remedy}"
 
 
 class SkeletonUnavailable(LookupError):  # noqa: N818

@@ -18,9 +18,10 @@ __all__ = ["Library", "named_folders"]
 class Library(ABC):
     """A collection of recordings, each with a key.
 
-    A subclass defines `where` and `recording`. It overrides `fetch` if it can download,
-    `skeleton` if it has skeletons, and `digest` if it knows a cheaper or stricter way to identify
-    its content. An `Archive` gives access to recordings of several libraries.
+    A subclass defines `where` and `recording`. It overrides `fetch` if it can download, else
+    `advice` if there is more to do than putting files where it looks for them; `skeleton` if it has
+    skeletons, and `digest` if it knows a cheaper or stricter way to identify its content. An
+    `Archive` gives access to recordings of several libraries.
 
     Keys are any non-empty text without a colon; a library that is stricter raises ValueError for a
     malformed key in every method.
@@ -110,12 +111,14 @@ class Library(ABC):
             If that is impossible. The base class cannot download: any recording that is not here.
         """
         if not self.where(key):
-            raise FetchError(
-                key,
-                f"{type(self).__name__} cannot download recordings",
-                "put it where the library looks for it, or name a folder that holds it "
-                "with --data-dir",
-            )
+            why = f"{type(self).__name__} cannot download recordings"
+            raise FetchError(key, why, self.advice(key))
+
+    def advice(self, key: str) -> str:  # noqa: ARG002
+        """Return how a user gets a recording that `fetch` cannot download; empty if it can."""
+        if type(self).fetch is not Library.fetch:
+            return ""
+        return "put it where the library looks for it, or name its folder with --data-dir"
 
     def renew(self, key: str) -> None:
         """Take what is here as right from now on, if another copy was recorded as right.

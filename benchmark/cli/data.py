@@ -28,7 +28,8 @@ app: typer.Typer = typer.Typer(
 )
 
 Trials = Annotated[
-    list[str] | None, typer.Argument(help="Such as 35_02; all that the tasks use if none.")
+    list[str] | None,
+    typer.Argument(help="Such as 35_02, or a library; all that the tasks use if none."),
 ]
 
 NamedTrials = Annotated[list[str], typer.Argument(help="Such as 35_02.")]
@@ -41,6 +42,9 @@ def fetch_missing(archive: Archive, uris: Sequence[str], console: LiteralConsole
     a recording, is not.
     """
     missing = [uri for uri in uris if not archive.available(uri)]
+    for line in bench.advise_supply(missing, archive):
+        console.print(f"working without what is not here: {line}", soft_wrap=True)
+    missing = [uri for uri in missing if not archive.advice(uri)]
     for uri in _track_fetching(missing, console):
         try:
             archive.fetch([uri])
@@ -62,7 +66,7 @@ def status(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
     archive, console = open_archive(data_dir), LiteralConsole()
     rows = archive.status(_addresses(trials, archive))
     _show(rows, data_dir, console)
-    _suggest(rows, trials, data_dir, plugin)
+    _suggest(rows, trials, data_dir, plugin, archive)
 
 
 @app.command()
@@ -71,7 +75,7 @@ def fetch(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = Non
     load_plugins(plugin)
     archive = open_archive(data_dir)
     rows = _get_each(archive, lambda uri: archive.fetch([uri]), trials, data_dir)
-    _suggest(rows, trials, data_dir, plugin)
+    _suggest(rows, trials, data_dir, plugin, archive)
 
 
 @app.command()
@@ -83,7 +87,7 @@ def renew(trials: NamedTrials, data_dir: DataDir = None, plugin: Plugins = None)
     load_plugins(plugin)
     archive = open_archive(data_dir)
     rows = _get_each(archive, archive.renew, trials, data_dir)
-    _suggest(rows, trials, data_dir, plugin)
+    _suggest(rows, trials, data_dir, plugin, archive)
 
 
 @app.command()
@@ -94,7 +98,7 @@ def verify(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
     tracked = track(_addresses(trials, archive), "verifying", console=console)
     rows = [row for uri in tracked for row in archive.verify([uri])]
     _show(rows, data_dir, console)
-    _suggest(rows, trials, data_dir, plugin)
+    _suggest(rows, trials, data_dir, plugin, archive)
     if any(row.state == "wrong" for row in rows):
         raise typer.Exit(ExitCode.USAGE)
 
@@ -107,8 +111,11 @@ def _get_each(
 ) -> Sequence[RecordingStatus]:
     """Get all recordings that can be had, show what is here, and say what failed."""
     console, addresses = LiteralConsole(), _addresses(trials, archive)
-    failures = []
+    missing = [uri for uri in addresses if not archive.available(uri)]
+    failures = bench.advise_supply(missing, archive)
     for uri in _track_fetching(addresses, console):
+        if uri in missing and archive.advice(uri):
+            continue
         try:
             get(uri)
         except datasets.ServerUnreachable as error:
@@ -123,17 +130,33 @@ def _get_each(
 
 
 def _addresses(trials: Iterable[str] | None, archive: Archive) -> list[str]:
-    """Return the addresses of ``trials``, or of every recording that a task uses."""
-    if trials:
-        addresses = [trial if ":" in trial else f"cmu:{trial}" for trial in trials]
-        try:
-            archive.status(addresses)
-        except ValueError as error:
-            raise UsageError(str(error)) from error
-        return addresses
+    """Return the addresses of ``trials``, or of every recording that a task uses.
+
+    A library stands for those of its recordings that a task uses.
+    """
+    if not trials:
+        return _used_by_tasks(library for library in archive.libraries if library != "gait")
+    named = [_used_by_tasks([t]) if t in archive.libraries else [_address(t)] for t in trials]
+    addresses = [uri for uris in named for uri in uris]
+    if not all(named):
+        unused = " and ".join(t for t, uris in zip(trials, named, strict=True) if not uris)
+        raise UsageError(f"no task uses recordings of {unused}; name some, as LIBRARY:KEY")
+    try:
+        archive.status(addresses)
+    except ValueError as error:
+        raise UsageError(str(error)) from error
+    return addresses
+
+
+def _used_by_tasks(libraries: Iterable[str]) -> list[str]:
+    """Return the addresses of all recordings of libraries that a task uses."""
+    starts = tuple(f"{library}:" for library in libraries)
     cases = (case for name in bench.TASKS.names() for case in bench.TASKS.get(name).cases)
-    recordings = {uri for case in cases for uri in case.recordings}
-    return sorted(uri for uri in recordings if not uri.startswith("gait:"))
+    return sorted({uri for case in cases for uri in case.recordings if uri.startswith(starts)})
+
+
+def _address(trial: str) -> str:
+    return trial if ":" in trial else f"cmu:{trial}"
 
 
 def _show(rows: Sequence[RecordingStatus], data_dir: str | None, console: LiteralConsole) -> None:
@@ -154,7 +177,8 @@ def _suggest(
     trials: Sequence[str] | None,
     data_dir: str | None,
     plugin: Sequence[Path] | None,
+    archive: Archive,
 ) -> None:
     """Say what to do next."""
-    step = bench.next_data_step(rows, trials or (), named_folders(data_dir), plugin or ())
+    step = bench.next_data_step(rows, trials or (), named_folders(data_dir), plugin or (), archive)
     LiteralConsole().print(step, soft_wrap=True)

@@ -128,7 +128,7 @@ def run(
         console.print(bench.plan_table(planned))
     if dry_run:
         n_workers = None if scheduler or cluster else jobs or bench.n_cores()
-        remedy = fetching(planned, plugins) if offline else downloading(planned)
+        remedy = fetching(planned, archive, plugins) if offline else downloading(planned, archive)
         _show(bench.forecast_text(planned, profile, out, n_workers, remedy), console)
         return
     store, backend = bench.RunDirectory.create(out), bench.open_backend(jobs, scheduler, cluster)

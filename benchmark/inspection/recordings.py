@@ -10,7 +10,8 @@ from pathlib import Path
 
 from mocapbench.basics.path_lists import folders_of_recordings
 from mocapbench.basics.words import format_count
-from mocapbench.datasets import RecordingStatus
+from mocapbench.benchmark.archives import explain_fetching, recording_names
+from mocapbench.datasets import Archive, RecordingStatus
 
 __all__ = ["data_totals", "next_data_step"]
 
@@ -30,6 +31,7 @@ def next_data_step(
     recordings: Sequence[str],
     folders: Sequence[Path],
     plugins: Sequence[Path],
+    archive: Archive,
 ) -> str:
     """Return the command to give next, and why.
 
@@ -41,18 +43,27 @@ def next_data_step(
     folders : sequence of Path
     plugins : sequence of Path
         The options that the user gave, and has to give to the next command too.
+    archive : Archive
+        Which knows what cannot be downloaded.
     """
     states, options = Counter(row.state for row in rows), [*_list_options(folders, plugins)]
-    fetch, verify = (
-        shlex.join(["mocapbench", "data", name, *recordings, *options])
-        for name in ("fetch", "verify")
-    )
+    lost = [row.uri for row in rows if row.state in {"missing", "wrong"}]
+
+    def name_command(name: str, uris: Sequence[str]) -> str:
+        names = recordings if len(uris) == len(lost) else recording_names(uris)
+        return f"`{shlex.join(['mocapbench', 'data', name, *names, *options])}`"
+
+    def name_fetching(uris: Sequence[str], those: str) -> str:
+        what = "what is missing" if len(uris) == len(lost) else those
+        return f"{name_command('fetch', uris)} downloads {what}, or name its folder with --data-dir"
+
     if states["wrong"]:
-        return f"next: remove what is wrong, then `{fetch}`"
+        remedy = explain_fetching(lost, archive, lambda uris, _: name_command("fetch", uris))
+        return f"next: remove what is wrong, then {remedy}"
     if states["missing"]:
-        return f"next: `{fetch}` downloads what is missing, or name its folder with --data-dir"
+        return f"next: {explain_fetching(lost, archive, name_fetching)}"
     if states["available"]:
-        return f"next: `{verify}` reads them and checks that they are right"
+        return f"next: {name_command('verify', lost)} reads them and checks that they are right"
     return f"next: `{shlex.join(['mocapbench', 'run', *options])}`"
 
 

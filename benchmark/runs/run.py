@@ -9,6 +9,7 @@ from rich.console import Console
 
 from mocapbench.basics.scratch import scratch_folder
 from mocapbench.benchmark.archives import (
+    advise_supply,
     archive_at,
     fetch_command,
     fetch_start,
@@ -134,11 +135,15 @@ def _log_end(log: EventLog, record: Record, seconds: float) -> None:
 
 def _without_data(job: Job, config: WorkerConfig) -> Record:
     """Return the record of a job whose recordings are not here."""
-    names, command = recording_names(job.missing), fetch_command(job.missing, config.plugins)
-    those = "it" if len(names) == 1 else "them"
+    names, archive = recording_names(job.missing), archive_at(*config.folders)
+    lost = f"not on this machine: {', '.join(names)}"
+    if supply := advise_supply(job.missing, archive):  # no command gets them
+        text = f"{lost}; {'; '.join(supply)}"
+        return job.record(Status.DATA_MISSING, text, provenance=config.provenance)
+    those, command = "it" if len(names) == 1 else "them", fetch_command(job.missing, config.plugins)
     return job.record(
         Status.DATA_MISSING,
-        f"not on this machine: {', '.join(names)}; get {those} with `{command}`",
+        f"{lost}; get {those} with `{command}`",
         missing=names,
         fetch=fetch_start(config.plugins),
         provenance=config.provenance,

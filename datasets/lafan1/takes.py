@@ -19,7 +19,6 @@ import numpy as np
 from mocapbench.basics.path_lists import folders_of_recordings
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.digests import DigestMismatch
-from mocapbench.datasets.errors import FetchError
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.joints.bvh import BVHFormat
 from mocapbench.datasets.lafan1.hierarchy import parse_hierarchy
@@ -103,21 +102,13 @@ class LaFAN1Library(Library):
         """Return the SHA-256 of the file, verified, and the subject."""
         return f"{self._verify_file(key)} {key}"
 
-    def fetch(self, key: str) -> None:
-        """Say where to get the file, unless it is here.
-
-        Raises
-        ------
-        FetchError
-            If it is not here.
-        """
-        if not self.where(key):
-            raise FetchError(
-                f"lafan1:{key}",
-                f"{_FILE} is in none of the folders named, and its licence forbids to pass it on",
-                "get it from github.com/ubisoft/ubisoft-laforge-animation-dataset (git lfs), and "
-                "name its folder with --data-dir",
-            )
+    def advice(self, key: str) -> str:
+        """Return where the file is to be had, whose licence forbids to pass it on."""
+        _check_key(key)
+        return (
+            f"get {_FILE} from github.com/ubisoft/ubisoft-laforge-animation-dataset (git lfs), as "
+            "its licence forbids to pass it on, and name its folder with --data-dir"
+        )
 
     def _verify_file(self, key: str) -> str:
         """Return the digest of the file, once it is known to be the right one."""

@@ -22,6 +22,7 @@ from mocapbench.basics.path_lists import folders_of_recordings
 from mocapbench.datasets.acclaim.motion import FRAME_RATE
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.cmu import CMULibrary
+from mocapbench.datasets.errors import FetchError
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import FrameByChannel, Recording
@@ -105,6 +106,27 @@ class RotationLibrary(Library):
         if path:
             return sha256(_read_bytes(path)).hexdigest()
         return f"from {self._database.digest(original_recordings()[key])}"
+
+    def fetch(self, key: str) -> None:
+        """Download the recording that a file was made from, unless one of them is here.
+
+        Raises
+        ------
+        FetchError, DigestMismatch
+            See `CMULibrary.fetch`; also if it is not known from which it was made.
+        """
+        if self.where(key):
+            return
+        if advice := self.advice(key):
+            raise FetchError(key, "it is not known which recording of the database it is", advice)
+        self._database.fetch(original_recordings()[key])
+
+    def advice(self, key: str) -> str:
+        """Return which folder has the file, if it is not known from which recording it was made."""
+        self._find(key)  # refuses what is no key
+        if original_recordings()[key]:
+            return ""
+        return "name the folder cmu_mocap of the contest's authors with --data-dir"
 
     def _find(self, key: str) -> str:
         """Return the path of a file, empty if it is not here."""

@@ -52,6 +52,10 @@ def test_an_address_leads_to_the_library(archive):
     assert archive.digest("shelf:01_01") == "digest of 01_01"
 
 
+def test_a_library_that_can_download_has_no_advice(archive):
+    assert archive.advice("shelf:01_03") == ""
+
+
 def test_a_recording_is_named_by_its_address(archive):
     assert archive.recording("shelf:01_01").name == "shelf:01_01"
 

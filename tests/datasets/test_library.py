@@ -5,7 +5,14 @@ from importlib.metadata import entry_points
 import numpy as np
 import pytest
 
-from mocapbench.datasets import Archive, FetchError, Library, Recording, SkeletonUnavailable
+from mocapbench.datasets import (
+    Archive,
+    FetchError,
+    Library,
+    Recording,
+    RecordingUnavailable,
+    SkeletonUnavailable,
+)
 
 
 class Tables(Library):
@@ -94,6 +101,9 @@ def test_what_is_here_needs_no_fetching(archive):
 
 
 def test_what_is_not_here_cannot_be_fetched(archive):
+    assert archive.advice("tables:run").endswith("name its folder with --data-dir")
+    with pytest.raises(RecordingUnavailable, match=r"not on this machine; put it where"):
+        archive.recording("tables:run")
     with pytest.raises(FetchError, match=r"run: Tables cannot download .* with --data-dir"):
         archive.fetch(["tables:run"])
 

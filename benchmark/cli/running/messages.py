@@ -13,6 +13,7 @@ from mocapbench.basics.words import format_count
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Job, Record
+    from mocapbench.datasets import Archive
 
 __all__ = ["downloading", "fetching", "summary", "wall_time", "without_report"]
 
@@ -24,15 +25,22 @@ def summary(records: Sequence[Record]) -> str:
     return f"{format_count(len(records), 'job')}: {ways}"
 
 
-def fetching(planned: Sequence[Job], plugins: Sequence[Path]) -> str:
-    """Return which command gets the recordings that jobs lack."""
-    return f"`{bench.fetch_command(bench.lacking(planned), plugins)}` gets them"
+def fetching(planned: Sequence[Job], archive: Archive, plugins: Sequence[Path]) -> str:
+    """Return how a user gets the recordings that jobs lack."""
+
+    def name_command(uris: Sequence[str], those: str) -> str:
+        return f"`{bench.fetch_command(uris, plugins)}` gets {those}"
+
+    return bench.explain_fetching(bench.lacking(planned), archive, name_command)
 
 
-def downloading(planned: Sequence[Job]) -> str:
-    """Return which recordings that jobs lack a run downloads."""
-    trials = " ".join(bench.recording_names(bench.lacking(planned)))
-    return f"the run downloads them first: {trials}"
+def downloading(planned: Sequence[Job], archive: Archive) -> str:
+    """Return which recordings that jobs lack a run downloads, and what becomes of the others."""
+
+    def name_recordings(uris: Sequence[str], those: str) -> str:
+        return f"the run downloads {those} first: {' '.join(bench.recording_names(uris))}"
+
+    return bench.explain_fetching(bench.lacking(planned), archive, name_recordings)
 
 
 def wall_time(seconds: float, records: Sequence[Record], started: str) -> str:

@@ -111,7 +111,8 @@ class Session:
 
     def _say_how_it_ended(self, records: Sequence[Record]) -> None:
         if bench.lacking(self.planned):
-            remedy = fetching(self.planned, self.config.plugins)
+            archive = bench.archive_at(*self.config.folders)
+            remedy = fetching(self.planned, archive, self.config.plugins)
             self._say(bench.lacking_line(self.planned, remedy))
         self.console.print(summary(records))
 

@@ -10,6 +10,7 @@ from catalogue.figures import ranking_figure
 from catalogue.published import beside, printed
 from catalogue.ranking import case_rows, ranking_basis, ranking_rows
 from catalogue.reference import Today
+from mocapbench.benchmark.archives import advise_supply
 from mocapbench.benchmark.catalogue.entries import task_entry
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.runs.request import entrants
@@ -33,6 +34,8 @@ def task_page(name: str, today: Today, archive: Archive) -> Mapping[str, Any]:
     """
     task, stored = TASKS.get(name), today.tasks.get(name)
     groups = recordings(task, archive)
+    missing = [uri for group in groups for uri in group.missing]
+    fetched = [uri for uri in missing if not archive.advice(uri)]
     return {
         "task": task,
         "page": task.page,
@@ -41,7 +44,8 @@ def task_page(name: str, today: Today, archive: Archive) -> Mapping[str, Any]:
         "citations": citations_of([task.page.reference]),
         "groups": groups,
         "missing": [group for group in groups if group.missing],
-        "fetch": archive.fetch_command(*(uri for group in groups for uri in group.missing)),
+        "fetch": archive.fetch_command(*fetched) if fetched else "",
+        "supply": advise_supply(missing, archive),
         "posed": posed(task, archive),
         "columns": list(dict.fromkeys(c for case in task.cases for c in case.columns)),
         "entrants": entrants(task),

@@ -86,6 +86,36 @@ def test_status_ends_in_totals_by_folder_and_the_next_command(cli, database):
     assert "next: remove what is wrong, then `mocapbench data fetch 99_01" in cli.printed
 
 
+LAFAN1 = "lafan1:subject1, lafan1:subject2 and 3 more cannot be downloaded: get lafan1.zip from "
+
+
+def test_a_library_stands_for_what_tasks_use_of_it(cli):
+    assert cli("data", "status", "lafan1") == 0
+    assert all(f"lafan1:subject{number} " in cli.printed for number in range(1, 6))
+    assert "5 recordings: 5 missing" in cli.printed
+    assert cli("data", "status", "files") == 2
+    assert "no task uses recordings of files; name some, as LIBRARY:KEY" in cli.printed
+
+
+def test_no_command_is_offered_for_what_cannot_be_downloaded(cli, tmp_path):
+    assert cli("data", "status", "lafan1") == 0
+    assert f"next: {LAFAN1}" in cli.printed
+    assert "mocapbench data fetch" not in cli.printed
+    assert cli("data", "fetch", "lafan1") == 2
+    assert f"error: {LAFAN1}" in cli.printed
+    words = ("--profile", "paper", "--tasks", "lafan1", "--models", "linear", "--out", tmp_path)
+    for more in (["--dry-run"], ["--dry-run", "--offline"], ["--no-report"]):
+        assert cli("run", *words, *more) == (0 if "--dry-run" in more else 4)
+        assert "4 of 4 jobs lack 5 recordings; lafan1:subject5, lafan1:subject1 and" in cli.printed
+        assert "mocapbench data fetch" not in cli.printed
+
+
+def test_what_can_be_downloaded_is_told_from_what_cannot(cli):
+    assert cli("data", "status", "files:a.csv", "99_03") == 0
+    assert "next: `mocapbench data fetch 99_03` downloads 1 of them" in cli.printed
+    assert "; files:a.csv cannot be downloaded: put it where the library looks" in cli.printed
+
+
 def test_a_folder_that_the_environment_names_is_not_repeated(cli, database, monkeypatch):
     monkeypatch.setenv("MOCAPBENCH_DATA", str(database))
     assert cli("data", "status", "99_01") == 0

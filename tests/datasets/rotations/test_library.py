@@ -9,6 +9,7 @@ from shared_files import shared
 from mocapbench.datasets import (
     Archive,
     CMULibrary,
+    FetchError,
     FormatError,
     GaitLibrary,
     RotationLibrary,
@@ -116,6 +117,19 @@ def test_what_is_made_from_a_recording_has_one_row_more_that_is_the_rest_pose():
     np.testing.assert_allclose(made.values[0, :3], walk.values[0, :3], atol=1e-4)
     np.testing.assert_allclose(made.values[1:, :3], walk.values[:, :3], atol=1e-4)
     assert np.rad2deg(made.values[0, 3:].sum()) == pytest.approx(16 - 21 - 11)
+
+
+def test_the_recording_that_a_file_was_made_from_is_downloaded(tmp_path, monkeypatch):
+    fetched = []
+    monkeypatch.setattr(CMULibrary, "where", lambda self, key: "")
+    monkeypatch.setattr(CMULibrary, "fetch", lambda self, key: fetched.append(key))
+    library = RotationLibrary(tmp_path)
+    library.fetch("test/jumping_1")
+    assert fetched == [original_recordings()["test/jumping_1"]]
+    assert library.advice("test/jumping_1") == ""
+    with pytest.raises(FetchError, match=r"not known .*; name the folder cmu_mocap"):
+        library.fetch("test/basketball_1")
+    assert len(fetched) == 1
 
 
 def test_recordings_of_another_skeleton_are_refused():
