@@ -16,7 +16,6 @@ from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
     DEFAULT_OUT,
     Names,
-    Out,
     Plugins,
     load_plugins,
     load_records,
@@ -52,8 +51,8 @@ PARQUET_ADVICE = "which need pyarrow: `pip install 'mocapbench[parquet]'`"
 
 @app.command()
 def export(
-    out: Out = DEFAULT_OUT,
-    to: Annotated[Path | None, typer.Option(help="Folder of the files.")] = None,
+    run: Annotated[Path, typer.Argument(help="The run directory.")] = DEFAULT_OUT,
+    to: Annotated[Path | None, typer.Option(help="Folder of the files; by default RUN.")] = None,
     formats: Annotated[
         list[str] | None,
         typer.Option("--format", help=f"Of tables for papers: {', '.join(PAPER_FILES)}."),
@@ -71,7 +70,7 @@ def export(
     that order.
     """
     load_plugins(plugin)
-    store, console, folder = bench.RunDirectory(out), LiteralConsole(), to or out
+    store, console, folder = bench.RunDirectory(run), LiteralConsole(), to or run
     if formats:
         chosen = {"tasks": tasks, "models": models, "metrics": metrics}
         names = {option: split(given) for option, given in chosen.items()}

@@ -64,7 +64,7 @@ def figures(
     ] = None,
     width: Annotated[str, typer.Option(help="Such as 8.4cm, 84mm, 3.3in or 240pt.")] = "",
     style: Annotated[str, typer.Option(help="paper or slides: the size of text.")] = "paper",
-    out: Annotated[
+    to: Annotated[
         Path | None, typer.Option(help="Folder of the files; by default RUN/figures.")
     ] = None,
     data_dir: DataDir = None,
@@ -79,7 +79,7 @@ def figures(
     named = {"kinds": split(kinds), "tasks": split(tasks), "models": split(models)}
     named |= {"metrics": split(metrics), "format": split(formats) or ("pdf",)}
     _require_drawable(named, style)
-    size, folder = _read_size(style, width), out or run / "figures"
+    size, folder = _read_size(style, width), to or run / "figures"
     store, console = bench.RunDirectory(run), LiteralConsole()
     whole, styles = _bundle_run(store, named, data_dir)
     kinds_shown = named["kinds"] or [*reports.FIGURE_KINDS]
@@ -87,7 +87,7 @@ def figures(
     given: dict[str, Sequence[str]] = {
         "width": (width,),
         "style": (style,),
-        "out": (str(out or ""),),
+        "to": (str(to or ""),),
     }
     given |= {"plugin": [*map(str, plugin or ())], "data-dir": (data_dir or "",)}
     contents: dict[str, bytes] = {}

@@ -154,7 +154,7 @@ def read_commands(run: Path, other: Path, out: Path) -> list[list[str]]:
     """Return commands that read a run, and write nothing into it."""
     return [
         ["status", str(run)],
-        ["export", "--out", str(run), "--to", str(out / "tables")],
+        ["export", str(run), "--to", str(out / "tables")],
         ["compare", str(run), str(other)],
         ["compare", str(run), "--models", "linear,knn"],
         ["check", str(run), "--reference", str(other)],

@@ -127,7 +127,7 @@ print(output.splitlines()[-2])
 import matplotlib.pyplot as plt
 import pandas as pd
 
-run("mocapbench export --out results")
+run("mocapbench export results")
 scores = pd.read_csv(Path(folder.name, "results", "scores.csv"))
 errors = scores[scores.metric == "mpjpe"]
 errors = errors.assign(

@@ -140,7 +140,7 @@ def test_what_is_written_beside_a_bar_is_text(monkeypatch, capsys):
 @pytest.mark.parametrize(
     "arguments",
     [
-        ("export", "--out", "{run}"),
+        ("export", "{run}"),
         ("report", "--out", "{run}"),
         ("check", "{run}", "--reference", "{run}.csv"),
         ("check", "{run}", "--controls"),
@@ -149,7 +149,7 @@ def test_what_is_written_beside_a_bar_is_text(monkeypatch, capsys):
         ("compare", "{run}", "--models", f"no,{CLEAR}"),
         ("power", "{run}"),
         ("power", "{run}", "--models", f"no,{CLEAR}"),
-        ("export", "--out", HOSTILE),
+        ("export", HOSTILE),
         ("run", "--tasks", HOSTILE),
         ("data", "status", HOSTILE),
         ("list", "models", "--plugin", HOSTILE),

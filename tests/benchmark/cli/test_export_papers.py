@@ -25,9 +25,7 @@ def run(tmp_path, write_run):
 
 def test_all_formats_have_the_same_numbers(cli, run, tmp_path):
     to = tmp_path / "paper"
-    assert (
-        cli("export", "--out", run, "--to", to, "--format", "latex,markdown,csv,parquet,xlsx") == 0
-    )
+    assert cli("export", run, "--to", to, "--format", "latex,markdown,csv,parquet,xlsx") == 0
     assert {path.name for path in to.iterdir()} == {
         f"tables.{end}" for end in ("tex", "md", "csv", "parquet", "xlsx")
     }
@@ -40,7 +38,7 @@ def test_all_formats_have_the_same_numbers(cli, run, tmp_path):
     for row in means.itertuples():
         assert f"± {row.half_width:.2f}" in shown
         assert rf"\pm {row.half_width:.2f}" in latex
-    assert cli("export", "--out", run, "--to", to) == 0
+    assert cli("export", run, "--to", to) == 0
     scores = pd.read_csv(to / "scores.csv")
     first = means[(means["case"] == "test 1") & (means["label"] == "knn")]["mean"].item()
     own = scores[(scores["case"] == "test 1") & (scores["label"] == "knn")]
@@ -49,7 +47,7 @@ def test_all_formats_have_the_same_numbers(cli, run, tmp_path):
 
 def test_models_are_named_by_label_or_model_and_cases_by_how_they_begin(cli, run, tmp_path):
     chosen = ("--models", "knn", "--models", "mohgp-3", "--cases", "test 2, test 1")
-    assert cli("export", "--out", run, "--to", tmp_path, "--format", "csv", *chosen) == 0
+    assert cli("export", run, "--to", tmp_path, "--format", "csv", *chosen) == 0
     means = pd.read_csv(tmp_path / "tables.csv")
     assert [*dict.fromkeys(means["label"])] == ["knn", "mohgp-3"]
     assert [*dict.fromkeys(means["case"])] == ["mean of 2 cases", "test 2", "test 1"]
@@ -74,14 +72,14 @@ def test_models_are_named_by_label_or_model_and_cases_by_how_they_begin(cli, run
     ],
 )
 def test_what_is_not_there_is_one_line_and_writes_nothing(cli, run, tmp_path, options, said):
-    assert cli("export", "--out", run, "--to", tmp_path / "new", *options) == 2
+    assert cli("export", run, "--to", tmp_path / "new", *options) == 2
     assert re.search(said, cli.printed)
     assert not (tmp_path / "new").exists()
 
 
 def test_a_file_that_is_there_stays(cli, run, tmp_path):
     (tmp_path / "tables.md").write_text("mine")
-    assert cli("export", "--out", run, "--to", tmp_path, "--format", "latex,markdown") == 2
+    assert cli("export", run, "--to", tmp_path, "--format", "latex,markdown") == 2
     assert "tables.md, which would be overwritten; name another folder with --to" in cli.printed
     assert (tmp_path / "tables.md").read_text() == "mine"
     assert not (tmp_path / "tables.tex").exists()
@@ -93,7 +91,7 @@ def test_a_model_without_a_score_is_named_and_without_any_there_is_no_table(
     scores = {(TASK, "test 1", "knn", fold): 1.0 for fold in range(2)}
     scores[TASK, "test 2", "mohgp-3", 0] = 1.0
     run = write_run(tmp_path / "run", [*scores], scores=scores)
-    given = ("export", "--out", run, "--to", tmp_path, "--cases", "test 1", "--format", "csv")
+    given = ("export", run, "--to", tmp_path, "--cases", "test 1", "--format", "csv")
     assert cli(*given, "--models", "mohgp-3") == 2
     assert "no score of what is chosen" in cli.printed
     assert cli(*given, "--models", "knn,mohgp-3") == 0
@@ -104,5 +102,5 @@ def test_a_model_without_a_score_is_named_and_without_any_there_is_no_table(
 def test_a_format_without_its_package_says_how_to_get_it(cli, run, tmp_path, monkeypatch, name):
     module = importlib.import_module("mocapbench.benchmark.cli.export")
     monkeypatch.setattr(module, "find_spec", {}.get)
-    assert cli("export", "--out", run, "--to", tmp_path, "--format", name) == 2
+    assert cli("export", run, "--to", tmp_path, "--format", name) == 2
     assert f"pip install 'mocapbench[{name}]'" in cli.printed

@@ -47,7 +47,7 @@ def test_each_figure_has_its_data_its_caption_and_its_command(cli, run):
 
 def test_the_command_beside_a_figure_draws_it_again_to_the_byte(cli, run, tmp_path):
     chosen = ("--kinds", "error-bars", "--models", "knn,trivial", "--width", "90mm")
-    assert cli("figures", run, *chosen, "--out", tmp_path / "a", "--style", "slides") == 0
+    assert cli("figures", run, *chosen, "--to", tmp_path / "a", "--style", "slides") == 0
     folder, again = tmp_path / "a", tmp_path / "b"
     text = (folder / f"{TASK}-error-bars-mse.txt").read_text(encoding="utf-8")
     program, *words = shlex.split(text.strip().splitlines()[-1])
@@ -58,8 +58,8 @@ def test_the_command_beside_a_figure_draws_it_again_to_the_byte(cli, run, tmp_pa
 
 
 def test_the_numbers_are_those_of_the_table_for_a_paper(cli, run, tmp_path):
-    assert cli("figures", run, "--kinds", "error-bars", "--out", tmp_path) == 0
-    assert cli("export", "--out", run, "--to", tmp_path, "--format", "csv") == 0
+    assert cli("figures", run, "--kinds", "error-bars", "--to", tmp_path) == 0
+    assert cli("export", run, "--to", tmp_path, "--format", "csv") == 0
     drawn = pd.read_csv(tmp_path / f"{TASK}-error-bars-mse.csv")
     means = pd.read_csv(tmp_path / "tables.csv").set_index(["case", "label"])
     for row in drawn.drop_duplicates(["panel", "label"]).itertuples():
@@ -73,7 +73,7 @@ def test_a_model_has_the_same_colour_beside_all_others_and_alone(cli, run, tmp_p
     given = ("--kinds", "error-bars", "--format", "svg")
     for name, models in (("all", LABELS), ("one", LABELS[1:2])):
         out = tmp_path / name
-        assert cli("figures", run, *given, "--models", ",".join(models), "--out", out) == 0
+        assert cli("figures", run, *given, "--models", ",".join(models), "--to", out) == 0
     texts = [(tmp_path / n / f"{TASK}-error-bars-mse.svg").read_text() for n in ("all", "one")]
     colours = [{*re.findall(r"(?:fill|stroke): (#\w{6})", text)} for text in texts]
     alone = {colour for colour in colours[1] if colour not in {"#000000", "#ffffff"}}
@@ -98,7 +98,7 @@ def test_a_model_has_the_same_colour_beside_all_others_and_alone(cli, run, tmp_p
     ],
 )
 def test_what_is_not_there_is_one_line_and_writes_nothing(cli, run, tmp_path, options, said):
-    assert cli("figures", run, "--out", tmp_path / "new", *options) == 2
+    assert cli("figures", run, "--to", tmp_path / "new", *options) == 2
     assert re.search(said, cli.printed)
     assert not (tmp_path / "new").exists()
 

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import vendor_tables
 from c3d_files import text, write_bytes
+from left_behind import leave_lock
 from shared_files import shared
 
 from mocapbench.basics.temporaries import PREFIX
@@ -332,6 +333,7 @@ def test_what_a_killed_fill_left_goes_even_where_all_is_filled_already(
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     assert cli("fill", walk, "--model", "linear", "--out", out) == 0
     left = tmp_path / f"{PREFIX}12345678"
+    leave_lock(left)
     left.mkdir()
     (left / "problem-0").touch()
     assert cli("fill", walk, "--model", "linear", "--out", out) == 2

@@ -77,7 +77,7 @@ def test_commands_that_read_runs(give, hostile):
     give("check", "run", "--reference", "reference.csv", "--update")
     give("check", "run", "--reference", "reference.csv")
     give("compare", "run", "run")
-    give("export", "--out", "run")
+    give("export", "run")
 
 
 @pytest.mark.slow

@@ -105,7 +105,7 @@ def test_a_report_of_hostile_names_is_printable(cli, write_run, tmp_path):
     assert cli("report", "--out", run) == 0
     page = (run / "report.html").read_text(encoding="utf-8")
     assert page == printable(page)
-    assert cli("export", "--out", run, "--to", tmp_path) == 0
+    assert cli("export", run, "--to", tmp_path) == 0
     for table in ("scores", "jobs"):
         text = (tmp_path / f"{table}.csv").read_text(encoding="utf-8")
         assert text == printable(text)

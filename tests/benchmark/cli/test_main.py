@@ -337,7 +337,7 @@ def test_info_says_how_to_cite(cli):
 
 def test_export_holds_one_row_per_score(cli, records, tmp_path):
     assert cli(*FAST, "--out", tmp_path / "run") == 0
-    assert cli("export", "--out", tmp_path / "run", "--to", tmp_path / "tables") == 0
+    assert cli("export", tmp_path / "run", "--to", tmp_path / "tables") == 0
     table = pd.read_parquet(tmp_path / "tables" / "scores.parquet")
     found = records(tmp_path / "run").values()
     assert len(table) == sum(len(record["scores"]) for record in found)
@@ -363,7 +363,7 @@ def test_an_export_holds_the_last_run_alone(cli, tmp_path, edits):
             'MODELS = {"mine": Mine}\n'
         )
         assert cli("run", *chosen, "--plugin", plugin, "--models", "mine", "--out", run) == 0
-    assert cli("export", "--out", run, "--to", tmp_path / "tables") == 0
+    assert cli("export", run, "--to", tmp_path / "tables") == 0
     assert f"not exported: {2 * edits} jobs of earlier runs" in cli.printed
     scores, jobs = (pd.read_csv(tmp_path / "tables" / f"{name}.csv") for name in ("scores", "jobs"))
     assert not scores.duplicated(["task", "case", "fold", "label", "metric"]).any()
@@ -380,7 +380,7 @@ def test_no_text_of_an_export_begins_a_formula(cli, tmp_path):
     store.save(Record("a", "a", address, 0, "@knn", {}, Status.FAILED, **fields))
     store.save(Record("b", "b", address._replace(fold=1), 0, "@knn", {}, Status.OK))
     store.save_plan(plan_of(store.records()))
-    assert cli("export", "--out", tmp_path / "run", "--to", tmp_path) == 0
+    assert cli("export", tmp_path / "run", "--to", tmp_path) == 0
     jobs, scores = (pd.read_csv(tmp_path / f"{name}.csv") for name in ("jobs", "scores"))
     assert set(jobs["label"]) == {"'=1+1"}
     assert set(jobs["model"]) == {"'@knn"}
@@ -392,9 +392,9 @@ def test_no_text_of_an_export_begins_a_formula(cli, tmp_path):
     assert "-it\nbroke" in set(kept["message"])
 
 
-@pytest.mark.parametrize("command", ["report", "export"])
+@pytest.mark.parametrize("command", [("report", "--out"), ("export",), ("figures",)])
 def test_commands_on_a_folder_that_is_no_run_exit_with_2(cli, tmp_path, command):
-    assert cli(command, "--out", tmp_path) == 2
+    assert cli(*command, tmp_path) == 2
     assert "is not a mocapbench run" in cli.printed
 
 
@@ -516,7 +516,7 @@ def test_if_one_table_cannot_be_written_those_of_an_earlier_run_stay(cli, tmp_pa
         write(table, path)
 
     monkeypatch.setattr(module, "_write_csv", fail)
-    assert cli("export", "--out", tmp_path / "run", "--to", tables) == 2
+    assert cli("export", tmp_path / "run", "--to", tables) == 2
     assert "No space left on device" in cli.printed
     assert {path.name: path.read_text() for path in tables.iterdir()} == {
         "scores.csv": "earlier",
@@ -528,7 +528,7 @@ def test_export_without_pyarrow_writes_csv_and_says_how_to_get_parquet(cli, tmp_
     assert cli(*FAST, "--out", tmp_path / "run") == 0
     module = importlib.import_module("mocapbench.benchmark.cli.export")
     monkeypatch.setattr(module, "find_spec", {}.get)
-    assert cli("export", "--out", tmp_path / "run", "--to", tmp_path / "tables") == 0
+    assert cli("export", tmp_path / "run", "--to", tmp_path / "tables") == 0
     assert "pip install 'mocapbench[parquet]'" in cli.printed
     assert "no Parquet files, which need pyarrow" in cli.printed
     assert {path.name for path in (tmp_path / "tables").iterdir()} == {"scores.csv", "jobs.csv"}

@@ -69,7 +69,7 @@ def test_a_run_on_names_of_windows(cli, records, tmp_path):
     found = records(tmp_path / "run")
     assert {record["status"] for record in found.values()} == {"ok"}
     assert {case.rpartition(" 0")[0] for _, case, *_ in found} == {"Tête 1", "Tête #2"}
-    assert cli("export", "--out", tmp_path / "run") == 0, cli.printed
+    assert cli("export", tmp_path / "run") == 0, cli.printed
 
 
 def test_the_first_task_file_of_markers_runs(cli, tmp_path):

@@ -133,7 +133,7 @@ def test_other_commands_work_on_the_run_alone(cli, own, task_file, tmp_path):
     for command in (
         ("report", "--out", tmp_path / "both"),
         ("status", tmp_path / "both"),
-        ("export", "--out", tmp_path / "both"),
+        ("export", tmp_path / "both"),
         ("compare", tmp_path / "both", "--models", "linear,knn"),
         ("check", tmp_path / "both", "--reference", tmp_path / "both"),
     ):

@@ -8,6 +8,7 @@ import sys
 import time
 
 import pytest
+from left_behind import leave_lock
 
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Status
@@ -32,7 +33,7 @@ def test_two_runs_merge_into_one_that_every_command_takes(cli, records, tmp_path
     assert cli("check", out, "--reference", one) == 0
     assert cli("compare", out, other) == 0
     assert cli("compare", out, "--models", "trivial,knn") == 0
-    assert cli("export", "--out", out) == 0
+    assert cli("export", out) == 0
     assert cli("status", out) == 0
     assert "finished, merged from" in cli.printed
     assert cli(*TOY, "--models", "trivial,cubic-spline,knn", "--explain", "--out", out) == 0
@@ -167,7 +168,7 @@ def test_the_log_of_a_refused_run_tells_its_end(cli, tmp_path):
 def test_a_run_sweeps_what_a_killed_one_left(cli, tmp_path):
     RunDirectory.create(tmp_path / "run")
     for name in (".mocapbench-tmp-abcdef12", "records/ab/.mocapbench-tmp-abcdef12"):
-        (tmp_path / "run" / name).parent.mkdir(exist_ok=True, parents=True)
+        leave_lock(tmp_path / "run" / name)
         (tmp_path / "run" / name).write_text("half")
     assert cli(*TOY, "--models", "trivial", "--folds", 1, "--out", tmp_path / "run") == 0
     assert [*(tmp_path / "run").rglob(".mocapbench-tmp-*")] == []
@@ -215,4 +216,4 @@ def test_a_surrogate_in_an_exception_can_be_stored_exported_and_shown(cli, recor
     assert {record["message"] for record in records(tmp_path / "run").values()} == {
         r"RuntimeError: \udc80"
     }
-    assert cli("export", "--out", tmp_path / "run", "--to", tmp_path / "tables") == 0
+    assert cli("export", tmp_path / "run", "--to", tmp_path / "tables") == 0

@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from left_behind import leave_lock
 
 from mocapbench.basics.temporaries import PREFIX
 from mocapbench.basics.whole_files import write_together
@@ -142,6 +143,7 @@ def test_an_update_that_was_killed_midway_is_finished_before_the_values_are_read
     write_reference(tmp_path / "folder", new)
     (written,) = (tmp_path / "folder").iterdir()
     left = tmp_path / "folder" / f"{PREFIX}reference"
+    leave_lock(left)
     (left / "decided").mkdir(parents=True)
     (left / "obsolete").mkdir()
     written.rename(left / "decided" / written.name)

@@ -26,7 +26,7 @@ def path(cli, tmp_path, write_run):
     )
     shutil.rmtree(path / "predictions")  # which are of no problem that there is
     assert cli("report", "--out", path) == 0
-    assert cli("export", "--out", path) == 0
+    assert cli("export", path) == 0
     return path
 
 

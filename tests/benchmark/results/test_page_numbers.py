@@ -65,7 +65,7 @@ def run(tmp_path_factory):
     out = tmp_path_factory.mktemp("run")
     chosen = ("--tasks", ",".join(TASKS), "--models", MODELS, "--folds", FOLDS, "--offline")
     mocapbench("run", "--profile", "smoke", *chosen, "--out", out)
-    mocapbench("export", "--out", out)
+    mocapbench("export", out)
     tables = Tables((out / "report.html").read_text(encoding="utf-8")).tables
     return pd.read_csv(out / "scores.csv"), tables
 

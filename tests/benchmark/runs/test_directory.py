@@ -54,7 +54,7 @@ def test_a_run_directory_of_another_layout_is_refused(store, marker, take_up):
     [
         ("run", "--offline", "--tasks", "toy-interpolation-1", "--out"),
         ("report", "--out"),
-        ("export", "--to", "tables", "--out"),
+        ("export", "--to", "tables"),
         ("status",),
         ("compare",),
         ("power",),
