@@ -9,7 +9,7 @@ from .bundle.task_page import Figure, TaskPage
 from .export.selection import select_results
 from .export.typesetting import latex_text, markdown_text, paper_tables
 from .figures.plots.along_column import AlongColumn
-from .figures.plots.base import Plot
+from .figures.plots.base import NothingToDrawError, Plot
 from .figures.plots.drawing import FIGURE_FORMATS, render_figure
 from .figures.plots.kinds import FIGURE_KINDS
 from .figures.plots.look import LOOKS
@@ -47,6 +47,7 @@ __all__ = [
     "MetricInfo",
     "ModelInfo",
     "Motions",
+    "NothingToDrawError",
     "Origin",
     "Picture",
     "Plot",

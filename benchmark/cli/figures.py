@@ -94,7 +94,11 @@ def figures(
     for (task, kind, name), table in tables.items():
         command = _command_of(run, {**named, **given, "kinds": (kind,), "tasks": (task,)})
         about = f"{reports.describe_figure(whole, task, kind, table)}\n\n{command}\n"
-        drawn = reports.render_figure(kind, table, styles, size, named["format"])
+        try:
+            drawn = reports.render_figure(kind, table, styles, size, named["format"])
+        except reports.NothingToDrawError as error:
+            advice = "name more, or fewer models with --models"
+            raise UsageError(f"--width: {error} for {name}; {advice}") from error
         texts = {"csv": reports.csv_text(table), "txt": about}
         drawn |= {end: encode_text(text) for end, text in texts.items()}
         contents |= {f"{name}.{end}": file for end, file in drawn.items()}

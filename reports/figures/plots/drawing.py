@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from io import BytesIO
 from typing import Any
@@ -10,9 +11,16 @@ import pandas as pd
 from matplotlib import style
 from matplotlib.figure import Figure
 
-from mocapbench.reports.figures.plots.base import Plot
+from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.kinds import FIGURE_KINDS
-from mocapbench.reports.figures.plots.look import EM, Styles, fit_legend, settings_of, text_size
+from mocapbench.reports.figures.plots.look import (
+    EM,
+    Styles,
+    fit_legend,
+    settings_of,
+    shorten_labels,
+    text_size,
+)
 
 __all__ = ["FIGURE_FORMATS", "draw_figure", "render_figure"]
 
@@ -39,6 +47,7 @@ def draw_figure(figure: Figure, plot: Plot, table: pd.DataFrame, styles: Styles)
     styles : mapping of str to DrawingStyle
         Of all labels, so that a model has one colour in all figures and on the page.
     """
+    table, styles = shorten_labels(table, styles)
     every, em = plot.add_styles(table, styles), EM * text_size()
     width = figure.get_figwidth() / em
     panels = [panel for _, panel in table.groupby("panel", sort=False)]
@@ -73,6 +82,11 @@ def render_figure(
         Of the text in points, and the width of the figure in inches.
     formats : sequence of str
         Of `FIGURE_FORMATS`.
+
+    Raises
+    ------
+    NothingToDrawError
+        If texts take all of the width.
     """
     points, width = size
     with style.context(["default", dict(settings_of(points))]):  # whatever the user's settings
@@ -92,5 +106,11 @@ def _row_heights(
 
 def _save(figure: Figure, name: str) -> bytes:
     file = BytesIO()
-    figure.savefig(file, format=name, metadata=_WITHOUT_DATES[name])
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", "constrained_layout not applied")
+        try:
+            figure.savefig(file, format=name, metadata=_WITHOUT_DATES[name])
+        except UserWarning as error:
+            width = f"{figure.get_figwidth() * 2.54:.1f} cm"
+            raise NothingToDrawError(f"names and numbers leave no room in {width}") from error
     return file.getvalue()

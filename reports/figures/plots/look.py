@@ -9,6 +9,7 @@ from math import ceil
 from textwrap import fill
 from typing import Any
 
+import pandas as pd
 from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -34,6 +35,7 @@ __all__ = [
     "scale_mark",
     "scales_of",
     "settings_of",
+    "shorten_labels",
     "text_size",
     "wrap_text",
 ]
@@ -51,6 +53,8 @@ _DASHED_WIDTH = 1.4
 
 NARROW, _LINE = 20, 36
 """Letters in a line of axes beside names of models, and of axes as wide as a column."""
+_START, _END = 24, 12
+"""Letters of a longer name of a model that are shown, before and after those left out."""
 
 _FIXED = {
     "axes.grid": False,
@@ -133,6 +137,23 @@ def fit_axis(axes: Axes, name: str, values: Iterable[float], ends: Iterable[floa
     else:
         scale = fit_linear_scale([*known, *ends], 0.0, 1.0)
     axes.set(**{f"{name}lim": (scale.low, scale.high)})
+
+
+def shorten_labels(table: pd.DataFrame, styles: Styles) -> tuple[pd.DataFrame, Styles]:
+    """Return a table and styles in which names of models leave room for what is drawn.
+
+    Names that would be alike have a number.
+    """
+    if "label" not in table:
+        return table, styles
+    shown: dict[str, str] = {}
+    for label in dict.fromkeys(table["label"]):
+        name = label
+        if len(label) > _START + 1 + _END:
+            name = f"{label[:_START]}…{label[-_END:]}"
+        shown[label] = f"{name} ({len(shown) + 1})" if name in shown.values() else name
+    named = {shown.get(label, label): look for label, look in styles.items()}
+    return table.assign(label=table["label"].map(shown)), named
 
 
 def wrap_text(text: str, letters: int = _LINE) -> str:

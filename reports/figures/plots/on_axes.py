@@ -11,7 +11,7 @@ from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import Plot
 from mocapbench.reports.figures.plots.drawing import draw_figure
-from mocapbench.reports.figures.plots.look import legend_handles
+from mocapbench.reports.figures.plots.look import Styles, legend_handles, shorten_labels
 from mocapbench.reports.figures.styles import model_styles
 
 __all__ = ["draw_on_axes"]
@@ -39,11 +39,12 @@ def draw_on_axes(
     """
     (layout,) = bundle.layouts
     table = next(iter(plot.tabulate(bundle, task_results(bundle, layout), metrics).values()))
-    styles = model_styles(bundle.layouts)
+    styles: Styles = model_styles(bundle.layouts)
     if axes is None:
         figure = pyplot.figure(layout="constrained")
         draw_figure(figure, plot, table, styles)
         return [*figure.axes]
+    table, styles = shorten_labels(table, styles)
     plot.draw(axes, table, styles)
     if shown := plot.keys(table):
         axes.legend(handles=legend_handles({label: styles[label] for label in shown}))
