@@ -190,6 +190,7 @@ def test_a_cache_that_cannot_be_written_is_named(packages, tmp_path, monkeypatch
         install_environment(packages, str)
 
 
+@pytest.mark.forks  # elsewhere pip goes on without the process that started it
 def test_an_installation_that_is_killed_looks_installed_to_nobody(index, declared, tmp_path, cli):
     waiting = tmp_path / "waiting"
     waiting.write_text(f"#!/bin/sh\necho $$ > {tmp_path}/pid\nexec sleep 600\n")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
 import signal
 import subprocess
 import sys
@@ -36,6 +37,9 @@ from mocapbench.basics.system.watch import (
 )
 
 __all__ = ["Portable"]
+
+_HAS_GROUPS = hasattr(os, "killpg")
+"""Not on Windows."""
 
 
 class Portable:
@@ -75,6 +79,7 @@ class Portable:
 
     @contextmanager
     def run_program(self, words: Sequence[str], **options: Any) -> Iterator[subprocess.Popen[Any]]:  # noqa: D102
+        options |= {"process_group": 0} if _HAS_GROUPS else {}
         with subprocess.Popen(words, **options) as process:
             started = psutil.Process(process.pid)
             try:
@@ -82,6 +87,9 @@ class Portable:
             finally:
                 kill_descendants(started)
                 process.kill()
+                if _HAS_GROUPS:  # what lost its parent, and descends from nobody
+                    with suppress(ProcessLookupError):
+                        os.killpg(process.pid, signal.SIGKILL)
 
     def kill_children(self) -> None:  # noqa: D102
         kill_descendants(psutil.Process())

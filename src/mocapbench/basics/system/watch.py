@@ -12,6 +12,7 @@ import os
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 
 import psutil
 
@@ -104,25 +105,33 @@ def end_with(wait: Callable[[], object]) -> None:
 
 
 def end_at_once(exit_code: int) -> None:
-    """End this process, whatever it does, after what it has started."""
-    kill_descendants(psutil.Process())
+    """End this process, whatever it does, with what it has started.
+
+    Those are not waited for: meanwhile the main thread could report their ends as if it went on.
+    """
+    _kill(_list_descendants(psutil.Process()))
     os._exit(exit_code)
 
 
 def kill_descendants(process: psutil.Process) -> None:
     """Kill what a process has started, and what these have, as far as that shows."""
-    try:
-        found = process.children(recursive=True)
-    except psutil.Error:  # it has ended
-        return
-    kill_processes(found)
+    kill_processes(_list_descendants(process))
 
 
 def kill_processes(processes: list[psutil.Process]) -> None:
     """Kill processes, and wait for their ends."""
-    for process in processes:
-        try:
-            process.kill()
-        except psutil.Error:  # it has ended, or is another's
-            continue
+    _kill(processes)
     psutil.wait_procs(processes, timeout=_PATIENCE)
+
+
+def _list_descendants(process: psutil.Process) -> list[psutil.Process]:
+    try:
+        return process.children(recursive=True)
+    except psutil.Error:  # it has ended
+        return []
+
+
+def _kill(processes: list[psutil.Process]) -> None:
+    for process in processes:
+        with suppress(psutil.Error):  # it has ended, or is another's
+            process.kill()
