@@ -5,8 +5,9 @@ similar. Every training recording is therefore matched with the new one by its c
 (`PoseViterbi`), and the paths are averaged. A Gaussian process over the matched pose and time then
 predicts the residuals at hidden frames from those at visible frames (kriging). Where left and right
 take turns, as in a walk, mirror images of recordings are matched too, and what is seen of one side
-tells about the other. How far the paths lie apart says how sure the average is. A motion that no
-path explains is filled from its own course.
+tells about the other. How far the paths lie apart says how sure the average is. In short gaps, what
+the recording's own course over time tells is surer: both are weighed by their variances. A motion
+that no path explains is filled from its own course alone.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from mocapbench.baselines.common.validation import (
     check_positive,
     check_share,
 )
+from mocapbench.baselines.kriging.conditioned import copy_gaps, growth_of_variance
 from mocapbench.baselines.kriging.frame_rates import keep_thirty_frames, restore_frames
 from mocapbench.baselines.kriging.mirror_images import (
     MirroredResiduals,
@@ -44,7 +46,7 @@ from mocapbench.baselines.kriging.paths import (
 from mocapbench.baselines.kriging.stances import find_reference, find_stance
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
-from mocapbench.basics.arrays import Array
+from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 from mocapbench.datasets.formats.angle_wrapping import mean_directions, wrapping_offsets
 
@@ -53,6 +55,9 @@ __all__ = ["PoseKriging"]
 
 _LEAST_VARIANCE = 1e-12
 """Least scale of a channel's residual, as a fraction of the total variance in training."""
+_ALIKE = 0.5
+"""Correlation of errors along paths with those of the own course: .3 to .8, more in the middle of
+long gaps, in recordings from which `in-betweening` learns."""
 
 
 class PoseKriging(FrameImputer, Inductive):
@@ -76,15 +81,23 @@ class PoseKriging(FrameImputer, Inductive):
     have in common is free, half their difference has the variance :math:`10 (1 - \text{symmetry})`.
 
     The predictive variance is that of this process, with the scale :math:`\sigma_d^2` integrated
-    out, plus the doubt about the path. Each path, corrected in the same way, is a prediction
-    :math:`\mu_k(t)`, and their weighted mean is the prediction :math:`\mu(t)`. A new subject counts
-    as one more draw from those whose K paths are seen, so that the doubt is :math:`\frac{K + 1}{K -
-    1} \sum_k w_k (\mu_k(t) - \mu(t))^2`. A single training recording says nothing about it.
+    out, and grown by how much more than expected it errs in visible stretches as long as the gaps,
+    each left out, plus the doubt about the path. Each path, corrected in the same way, is a
+    prediction :math:`\mu_k(t)`, and their weighted mean is the prediction :math:`\mu(t)`. A new
+    subject counts as one more draw from those whose K paths are seen, so that the doubt is
+    :math:`\frac{K + 1}{K - 1} \sum_k w_k (\mu_k(t) - \mu(t))^2`. A single training recording says
+    nothing about it.
 
     Of the rotation and the path of a root such as the Acclaim format has, the mean heading of each
     recording is taken out (``mocapbench.baselines.common.heading``), and of markers where they
     stand and face on the whole (``mocapbench.baselines.kriging.stances``): a motion is filled alike
     wherever it stands and faces.
+
+    The recording's own course over time (``mocapbench.baselines.kriging.own_course``) is a second
+    prediction. With the total variances a and b of a frame along paths and by the own course, and
+    the correlation :math:`\rho = 1/2` of their errors, :math:`(b - \rho \sqrt{ab}) / (a + b - 2
+    \rho \sqrt{ab})`, from 0 to 1, is the weight of the first in the mean that errs least; the
+    variance is that of a mixture with these weights.
 
     A recording is unlike its training if no path explains the share ``least_explained`` of its
     variance at visible frames. It is filled from its own course over time, whatever was learnt, and
@@ -261,25 +274,29 @@ class PoseKriging(FrameImputer, Inductive):
         total = recording.values[visible_frames(recording)].var(axis=0).sum()
         if explained_share(errors, float(total)) < self.least_explained:
             return self._own_course(recording)
-        return self._correct_paths(recording, paths, weigh_paths(errors))
+        along_paths = self._correct_paths(recording, paths, weigh_paths(errors))
+        return _unite(along_paths, self._own_course(recording))
 
     def _correct_paths(
         self, recording: Recording, paths: Array, weights: Array
     ) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the mean and variance (N, D) of the paths, corrected by their residuals."""
         visible, n_frames = visible_frames(recording), len(recording.times)
-        seen = np.tile(visible, len(self.symmetries_))
-        unexplained = recording.values - paths
+        n_images, unexplained = len(self.symmetries_), recording.values - paths
+        seen = np.tile(visible, n_images)
         residuals = np.array([images_of(each, self.symmetries_)[seen] for each in unexplained])
         corrected, variance = paths.copy(), np.empty(recording.values.shape)
-        matched = np.tensordot(weights, paths, axes=1)
+        copies = [_in_all_images(each, visible, n_images) for each in copy_gaps(visible)]
+        sums, matched = np.empty((2, len(self.channels_))), np.tensordot(weights, paths, axes=1)
         for channels, given in self._residuals().condition(matched, visible):
             those = residuals[:, :, channels]
             corrected[:, :, channels] += [given.mean(each)[:n_frames] for each in those]
-            scales = given.scales(np.tensordot(weights, those, axes=1), self._least(visible))
-            variance[:, channels] = np.outer(given.variance[:n_frames], scales)
-            variance[:, channels] *= given.doubt_of_scale
+            averaged = np.tensordot(weights, those, axes=1)
+            scales = given.scales(averaged, self._least(visible))
+            variance[:, channels] = given.variances(scales)[:n_frames]
+            sums[:, channels] = given.leave_out(copies, averaged, scales)
         mean = np.tensordot(weights, corrected, axes=1)
+        variance *= growth_of_variance(sums)
         return mean, variance + doubt_about_path(corrected, weights)
 
     def _residuals(self) -> MirroredResiduals:
@@ -304,3 +321,25 @@ class PoseKriging(FrameImputer, Inductive):
         """Leave out the recording to fill: its path through itself would seem free of error."""
         pairs = zip(cycle(self.names_), self.matchers_, strict=False)
         return [matcher for other, matcher in pairs if other != name]
+
+
+def _in_all_images(frames: Index, visible: NDArray[np.bool_], n_images: int) -> Index:
+    """Return the numbers of visible frames, and those of them in all images of the recording."""
+    return np.concatenate([frames + image * visible.sum() for image in range(n_images)])
+
+
+def _unite(
+    one: tuple[FrameByChannel, FrameByChannel], other: tuple[FrameByChannel, FrameByChannel]
+) -> tuple[FrameByChannel, FrameByChannel]:
+    """Return the mean and variance (N, D) of two predictions of which one holds.
+
+    In each frame it is the first with the probability with which the weighted mean errs least.
+    """
+    (mean, variance), (mean_there, variance_there) = one, other
+    doubt, doubt_there = (np.sqrt(each.sum(axis=1)) for each in (variance, variance_there))
+    shared = _ALIKE * doubt * doubt_there
+    gain = (doubt_there**2 - shared) / (doubt**2 + doubt_there**2 - 2.0 * shared)
+    weight = np.clip(gain, 0.0, 1.0)[:, None]
+    spread = weight * (1.0 - weight) * (mean - mean_there) ** 2
+    both = weight * variance + (1.0 - weight) * variance_there
+    return weight * mean + (1.0 - weight) * mean_there, both + spread

@@ -12,6 +12,7 @@ being the number of visible frames. Its variance is ν / (ν − 2) times that w
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -20,9 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
-from mocapbench.basics.arrays import Array
+from mocapbench.basics.arrays import Array, Index
+from mocapbench.basics.mask_runs import runs
 
-__all__ = ["ConditionedFrames", "student_variance"]
+__all__ = ["ConditionedFrames", "copy_gaps", "growth_of_variance", "student_variance"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +112,39 @@ class ConditionedFrames:
         half_log_determinant += 0.5 * np.linalg.slogdet(self._trend_precision)[1]
         return np.asarray(-0.5 * self._freedom * np.log(scales) - half_log_determinant)
 
+    @cached_property
+    def _precision(self) -> Array:
+        """(n, n) K⁻¹ − K⁻¹H (HᵀK⁻¹H)⁻¹HᵀK⁻¹ of the visible frames."""
+        inverse = cho_solve(self._factor, np.eye(int(self.visible.sum())))
+        explained = self._trend_dual @ np.linalg.solve(self._trend_precision, self._trend_dual.T)
+        return np.asarray(inverse - explained)
+
+    def leave_out(self, stretches: Sequence[Index], residuals: Array, scales: Array) -> Array:
+        """Return sums (2, D) of squared errors, and of their variances, of stretches left out.
+
+        Each stretch is told from all other visible frames, which determine the trend, too.
+
+        Parameters
+        ----------
+        stretches : sequence of ndarray of int, shape (m,)
+            Which of the n visible frames; see `copy_gaps`.
+        residuals : ndarray of shape (n, D)
+        scales : ndarray of shape (D,)
+            As `scales` returns them.
+        """
+        sums, dual = np.zeros((2, residuals.shape[1])), self._precision @ residuals
+        for left_out in stretches:
+            # With P the precision and frames g left out: P_gg⁻¹ (P r)_g, of covariance P_gg⁻¹ (C.
+            # E. Rasmussen and C. K. I. Williams 2006, §5.4.2).
+            covariance = np.linalg.inv(self._precision[np.ix_(left_out, left_out)])
+            sums[0] += ((covariance @ dual[left_out]) ** 2).sum(axis=0)
+            sums[1] += self.doubt_of_scale * np.trace(covariance) * scales
+        return sums
+
+    def variances(self, scales: Array) -> Array:
+        """Return the variance (N, D) of each frame and channel, the scale integrated out."""
+        return self.doubt_of_scale * np.outer(self.variance, scales)
+
     @property
     def doubt_of_scale(self) -> float:
         """By what the variance grows because the scale is inferred: ν / (ν − 2) if ν > 2."""
@@ -129,3 +164,36 @@ def student_variance(n_values: int) -> float:
     """
     n_counted = max(n_values, 3)
     return n_counted / (n_counted - 2)
+
+
+def copy_gaps(visible: NDArray[np.bool_]) -> list[Index]:
+    """Return stretches as long as the median gap, by their numbers among the visible frames.
+
+    A frame on either side is visible. Stretches are shorter where visible ones are, and overlap by
+    half.
+
+    Examples
+    --------
+    >>> copy_gaps(np.array([True, False, False, True, True, True, True]))
+    [array([2, 3])]
+    """
+    number = np.cumsum(visible) - 1
+    length = int(np.median([len(gap) for gap in runs(~visible)] or [1]))
+    stretches = []
+    for inner in [number[run[1:-1]] for run in runs(visible)]:
+        size = min(length, len(inner))
+        firsts = range(0, len(inner) - size + 1, max(size // 2, 1)) if size else ()
+        stretches += [inner[first : first + size] for first in firsts]
+    return stretches
+
+
+def growth_of_variance(sums: Array) -> float:
+    """Return by what variances grow where squared errors are more than expected; at least 1.
+
+    Parameters
+    ----------
+    sums : ndarray of shape (2, D)
+        Of squared errors and of their variances; 0 where nothing was left out.
+    """
+    squares, expected = sums.sum(axis=1)
+    return float(max(squares / expected, 1.0)) if expected > 0.0 else 1.0

@@ -1,7 +1,9 @@
 """What is to be expected of a recording from its own visible frames alone.
 
 Each channel is a constant plus a Gaussian process over time with the once differentiable kernel
-of Matérn. Its scale and its lengthscale are inferred from the visible frames of the channel.
+of Matérn. Its scale and its lengthscale are inferred from the visible frames of the channel. Motion
+is less regular than such a process: where visible stretches as long as the gaps, each told from all
+else, err further than expected, the variance grows likewise.
 """
 
 from __future__ import annotations
@@ -12,7 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
-from mocapbench.baselines.kriging.conditioned import ConditionedFrames
+from mocapbench.baselines.kriging.conditioned import (
+    ConditionedFrames,
+    copy_gaps,
+    growth_of_variance,
+)
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.mask_runs import hidden_together, runs
 from mocapbench.datasets import FrameByChannel, Mask
@@ -34,7 +40,9 @@ def own_course(
 ) -> tuple[FrameByChannel, FrameByChannel]:
     """Return the predictive mean and variance (N, D) of all frames given the visible ones.
 
-    Lengthscales are averaged over, with weights by their evidence in the channel.
+    Lengthscales are averaged over, with weights by their evidence in the channel. The variance of
+    all channels grows by the ratio of squared errors to their variances in stretches left out,
+    where that is above 1.
 
     Parameters
     ----------
@@ -49,12 +57,13 @@ def own_course(
     parts = [
         _fill_with(length, values[visible] - centre, visible, least) for length in _LENGTHSCALES
     ]
-    means, variances, evidence = map(np.array, zip(*parts, strict=True))
+    means, variances, evidence, left_out = map(np.array, zip(*parts, strict=True))
     # Of the mixture: the mean of the means, and the mean variance plus the variance of means.
     weights = np.exp(evidence - evidence.max(axis=0))
     weights = (weights / weights.sum(axis=0))[:, None]
     mean = (weights * means).sum(axis=0)
-    return centre + mean, (weights * (variances + (means - mean) ** 2)).sum(axis=0)
+    variance = (weights * (variances + (means - mean) ** 2)).sum(axis=0)
+    return centre + mean, variance * growth_of_variance((weights * left_out).sum(axis=0))
 
 
 def courses_in_gaps(
@@ -87,11 +96,14 @@ def courses_in_gaps(
 
 def _fill_with(
     lengthscale: float, residuals: FrameByChannel, visible: NDArray[np.bool_], least: float
-) -> tuple[FrameByChannel, FrameByChannel, NDArray[np.float64]]:
-    """Return mean and variance (N, D) with one lengthscale, and its evidence (D,)."""
+) -> tuple[FrameByChannel, FrameByChannel, Array, Array]:
+    """Return mean and variance (N, D) with one lengthscale, its evidence (D,), and errors (2, D).
+
+    Errors are sums of squares and of their variances in copies of the gaps.
+    """
     times = np.arange(len(visible), dtype=np.float64)
     course = Matern32().value(np.subtract.outer(times, times), float(lengthscale))
     given = ConditionedFrames(_CONSTANT + course, _NOISE, visible, np.empty((len(times), 0)))
     scales = given.scales(residuals, least)
-    variance = given.doubt_of_scale * np.outer(given.variance, scales)
-    return given.mean(residuals), variance, given.log_evidence(scales)
+    left_out = given.leave_out(copy_gaps(visible), residuals, scales)
+    return given.mean(residuals), given.variances(scales), given.log_evidence(scales), left_out

@@ -8,7 +8,7 @@ from samples import gap
 
 from mocapbench.baselines.kriging.own_course import own_course
 from mocapbench.baselines.kriging.paths import match_paths, weigh_paths
-from mocapbench.baselines.pose_kriging import PoseKriging
+from mocapbench.baselines.pose_kriging import PoseKriging, _unite
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.datasets import Recording
 
@@ -177,9 +177,36 @@ def test_the_mean_is_the_weighted_mean_of_what_each_path_predicts():
     matched = np.tensordot(weights, paths, axes=1)
     ((_, process),) = model._residuals().condition(matched, visible)
     each = [path + process.mean((recording.values - path)[visible]) for path in paths]
-    (prediction,) = model.impute([recording])
-    expected = np.average(each, axis=0, weights=weights)
-    np.testing.assert_allclose(prediction.mean[~visible], expected[~visible], atol=1e-9)
+    mean, _ = model._correct_paths(recording, paths, weights)
+    np.testing.assert_allclose(mean, np.average(each, axis=0, weights=weights), atol=1e-9)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.floats(0.01, 100.0), st.floats(0.01, 100.0))
+def test_the_surer_of_two_predictions_counts_so_that_the_mean_errs_least(one, other):
+    """Errors correlate by one half."""
+    means, shape = (np.zeros((2, 3)), np.ones((2, 3))), (2, 3)
+    mean, variance = _unite((means[0], np.full(shape, one)), (means[1], np.full(shape, other)))
+    share = np.linspace(0.0, 1.0, 1001)
+    error = (1.0 - share) ** 2 * one + share**2 * other
+    error += share * (1.0 - share) * np.sqrt(one * other)
+    best = share[error.argmin()]
+    np.testing.assert_allclose(mean, best, atol=1e-3)
+    spread = best * (1.0 - best)
+    np.testing.assert_allclose(variance, (1.0 - best) * one + best * other + spread, rtol=0.02)
+
+
+def test_a_fill_unites_the_paths_with_the_own_course():
+    model, given = PoseKriging().fit(TRAINING), gap(walk("new", 2, 44, style=0.6), 26, 29)
+    paths, errors = match_paths(given, model.matchers_)
+    along_paths = model._correct_paths(given, paths, weigh_paths(errors))
+    visible = given.visible.all(axis=1)
+    own = own_course(given.values, visible, 1e-12 * model.total_variance_)
+    assert np.abs(along_paths[0] - own[0])[26:29].max() > 1e-3
+    (filled,) = model.impute([given])
+    mean, variance = _unite(along_paths, own)
+    np.testing.assert_allclose(filled.mean[26:29], mean[26:29])
+    np.testing.assert_allclose(filled.variance[26:29], variance[26:29])
 
 
 def test_what_one_leg_does_before_the_gap_tells_what_the_other_does_in_it():

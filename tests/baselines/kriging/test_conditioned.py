@@ -5,7 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.kriging.conditioned import ConditionedFrames
+from mocapbench.baselines.kriging.conditioned import (
+    ConditionedFrames,
+    copy_gaps,
+    growth_of_variance,
+)
 
 
 def frames(seed, n=12):
@@ -92,3 +96,42 @@ def test_a_trend_costs_as_many_degrees_of_freedom_as_it_has_coefficients():
     visible = np.arange(20) < 8
     process = ConditionedFrames(np.eye(20), 1.0, visible, np.ones((20, 2)) * [1.0, 0.0])
     assert process.doubt_of_scale == pytest.approx(6.0 / 4.0)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10_000))
+def test_left_out_frames_are_told_as_hidden_ones_are(seed):
+    process, residuals = with_trend(seed, 20)
+    scales = process.scales(residuals, 1e-300)
+    numbers, squares, expected = np.flatnonzero(process.visible), 0.0, 0.0
+    stretches = [np.array([1, 2]), np.array([4])]
+    for stretch in stretches:
+        hidden = replace(process, visible=process.visible & ~np.isin(range(20), numbers[stretch]))
+        told = hidden.mean(np.delete(residuals, stretch, axis=0))[numbers[stretch]]
+        squares = squares + ((told - residuals[stretch]) ** 2).sum(axis=0)
+        expected = expected + hidden.variance[numbers[stretch]].sum() * scales
+    sums = process.leave_out(stretches, residuals, scales)
+    np.testing.assert_allclose(sums[0], squares, rtol=1e-5)
+    np.testing.assert_allclose(sums[1], process.doubt_of_scale * expected, rtol=1e-6)
+
+
+@given(st.lists(st.booleans(), min_size=1, max_size=40).map(np.array))
+def test_copies_of_gaps_lie_between_visible_frames_that_follow_each_other(visible):
+    numbers = np.flatnonzero(visible)
+    for stretch in copy_gaps(visible):
+        frames = numbers[np.arange(stretch[0] - 1, stretch[-1] + 2)]
+        np.testing.assert_array_equal(frames, np.arange(frames[0], frames[-1] + 1))
+
+
+def test_copies_are_as_long_as_the_median_gap_where_there_is_room():
+    visible = np.ones(60, dtype=bool)
+    visible[[*range(10, 14), *range(30, 34), 50]] = False
+    assert {len(stretch) for stretch in copy_gaps(visible)} == {4}
+    visible[2:58] = False
+    assert copy_gaps(visible) == []
+
+
+def test_variances_grow_by_the_errors_of_all_channels_and_never_shrink():
+    assert growth_of_variance(np.array([[6.0, 0.0], [1.0, 1.0]])) == 3.0
+    assert growth_of_variance(np.array([[0.5, 0.0], [1.0, 1.0]])) == 1.0
+    assert growth_of_variance(np.zeros((2, 3))) == 1.0
