@@ -6,8 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from samples import gap
 
+from mocapbench.baselines import pose_kriging as module
+from mocapbench.baselines.kriging.conditioned import copy_gaps
 from mocapbench.baselines.kriging.own_course import own_course
-from mocapbench.baselines.kriging.paths import match_paths, weigh_paths
+from mocapbench.baselines.kriging.paths import doubt_about_path, match_paths, weigh_paths
 from mocapbench.baselines.pose_kriging import PoseKriging, _unite
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.datasets import Recording
@@ -179,6 +181,24 @@ def test_the_mean_is_the_weighted_mean_of_what_each_path_predicts():
     each = [path + process.mean((recording.values - path)[visible]) for path in paths]
     mean, _ = model._correct_paths(recording, paths, weights)
     np.testing.assert_allclose(mean, np.average(each, axis=0, weights=weights), atol=1e-9)
+
+
+def test_residuals_vary_as_much_more_as_copies_of_the_gaps_err_more_than_expected(monkeypatch):
+    model, recording = PoseKriging().fit(TRAINING), gap(walk("new", 2, 30, style=0.2), 10, 13)
+    paths, errors = match_paths(recording, model.matchers_)
+    weights, visible = weigh_paths(errors), recording.visible[:, 0]
+    matched = np.tensordot(weights, paths, axes=1)
+    ((_, process),) = model._residuals().condition(matched, visible)
+    residuals = (recording.values - matched)[visible]
+    scales = process.scales(residuals, 1e-12 * model.total_variance_)
+    given = []
+    monkeypatch.setattr(module, "growth_of_variance", lambda sums: given.append(sums) or 3.0)
+    _, variance = model._correct_paths(recording, paths, weights)
+    expected = process.leave_out(copy_gaps(visible), residuals, scales)
+    np.testing.assert_allclose(given[0], expected)
+    corrected = [path + process.mean((recording.values - path)[visible]) for path in paths]
+    grown = 3.0 * process.variances(scales) + doubt_about_path(np.array(corrected), weights)
+    np.testing.assert_allclose(variance, grown)
 
 
 @settings(max_examples=25, deadline=None)

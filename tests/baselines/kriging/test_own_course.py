@@ -2,6 +2,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mocapbench.baselines.kriging import own_course as module
+from mocapbench.baselines.kriging.conditioned import growth_of_variance
 from mocapbench.baselines.kriging.own_course import own_course
 
 VISIBLE = np.ones(40, dtype=bool)
@@ -53,3 +55,14 @@ def test_intervals_cover_what_they_claim():
         mean, variance = own_course(values, VISIBLE, 1e-12)
         inside.append(np.abs(values - mean)[~VISIBLE] < 1.96 * np.sqrt(variance[~VISIBLE]))
     assert 0.88 < np.mean(inside) < 0.98
+
+
+def test_variances_grow_by_how_much_more_than_expected_copies_of_the_gaps_err(monkeypatch):
+    values = np.sin(np.arange(40) / 5.0)[:, None] * [1.0, 0.5, 2.0]
+    _, grown = own_course(values, VISIBLE, 1e-12)
+    given = []
+    monkeypatch.setattr(module, "growth_of_variance", lambda sums: given.append(sums) or 1.0)
+    _, variance = own_course(values, VISIBLE, 1e-12)
+    growth = growth_of_variance(given[0])
+    assert growth > 1.1
+    np.testing.assert_allclose(grown, growth * variance)
