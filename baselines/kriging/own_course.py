@@ -8,7 +8,7 @@ else, err further than expected, the variance grows likewise.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from mocapbench.baselines.kriging.conditioned import (
     copy_gaps,
     growth_of_variance,
 )
-from mocapbench.basics.arrays import Array
+from mocapbench.basics.arrays import Array, Index
 from mocapbench.basics.mask_runs import hidden_together, runs
 from mocapbench.datasets import FrameByChannel, Mask
 
@@ -53,10 +53,9 @@ def own_course(
     least : float
         Least scale of a channel's variance, positive.
     """
-    centre = values[visible].mean(axis=0)
-    parts = [
-        _fill_with(length, values[visible] - centre, visible, least) for length in _LENGTHSCALES
-    ]
+    centre, copies = values[visible].mean(axis=0), copy_gaps(visible)
+    residuals = values[visible] - centre
+    parts = [_fill_with(each, residuals, visible, least, copies) for each in _LENGTHSCALES]
     means, variances, evidence, left_out = map(np.array, zip(*parts, strict=True))
     # Of the mixture: the mean of the means, and the mean variance plus the variance of means.
     weights = np.exp(evidence - evidence.max(axis=0))
@@ -95,7 +94,11 @@ def courses_in_gaps(
 
 
 def _fill_with(
-    lengthscale: float, residuals: FrameByChannel, visible: NDArray[np.bool_], least: float
+    lengthscale: float,
+    residuals: FrameByChannel,
+    visible: NDArray[np.bool_],
+    least: float,
+    copies: Sequence[Index],
 ) -> tuple[FrameByChannel, FrameByChannel, Array, Array]:
     """Return mean and variance (N, D) with one lengthscale, its evidence (D,), and errors (2, D).
 
@@ -105,5 +108,5 @@ def _fill_with(
     course = Matern32().value(np.subtract.outer(times, times), float(lengthscale))
     given = ConditionedFrames(_CONSTANT + course, _NOISE, visible, np.empty((len(times), 0)))
     scales = given.scales(residuals, least)
-    left_out = given.leave_out(copy_gaps(visible), residuals, scales)
+    left_out = given.leave_out(copies, residuals, scales)
     return given.mean(residuals), given.variances(scales), given.log_evidence(scales), left_out
