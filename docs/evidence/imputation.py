@@ -6,8 +6,10 @@
     python docs/evidence/imputation.py tasks   # both on the tasks themselves, with seconds
     python docs/evidence/imputation.py frames  # channel-kriging, its learning frames drawn anew
     python docs/evidence/imputation.py headings # pose-kriging, the tests' motion turned about
+    python docs/evidence/imputation.py others  # pose-kriging, walks of people who are not in it
 
-All but `walkers` use the tests of `missing-frames` and `subject-35-missing`, which choose nothing.
+All but `walkers` use tests, those of `missing-frames` and `subject-35-missing` or walks of people
+who are in no training, which choose nothing.
 """
 
 from __future__ import annotations
@@ -18,21 +20,30 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import product
+from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
+from pandas import read_csv
+from scipy.stats import sem
+from scipy.stats import t as student
 
 from mocapbench import benchmark as bench
-from mocapbench.baselines import ChannelKriging, FrameImputer, PoseKriging
+from mocapbench import datasets
+from mocapbench.baselines import ChannelKriging, FrameImputer, MakimaImputer, PoseKriging
 from mocapbench.baselines.kriging import held_out_stretches
 from mocapbench.benchmark import METRICS, TASKS, Address, ImputeProblem, Seeds
+from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.tasks.missing_frames import (
     FIRST_HIDDEN,
     GROUPS,
     N_HIDDEN,
     N_TEST_FRAMES,
+    N_WINDOWS,
+    TESTS,
     TRAINING,
+    hide_window,
 )
 from mocapbench.benchmark.testing.facing import rotate_motion
 from mocapbench.datasets import Recording, RecordingUnavailable, gpdm_features, one_based_frames
@@ -129,10 +140,8 @@ def _score(task: str, case: str, model: FrameImputer, names: Sequence[str], n_fo
     except RecordingUnavailable:
         return
     began = time.process_time()
-    outcomes = [_outcome(problem, model.fit(problem.train)) for problem in problems]
+    means = _mean_scores(model, problems, *names, "coverage_95")
     seconds = (time.process_time() - began) / n_folds
-    metrics = [METRICS.get(name) for name in (*names, "coverage_95")]
-    means = [np.mean([metric(outcome).value for outcome in outcomes]) for metric in metrics]
     print(f"{task:20} {case:24} {np.round(means, 3)} {seconds:.2f} s", flush=True)
 
 
@@ -185,5 +194,51 @@ def _rotate_problem(problem: ImputeProblem, degrees: float) -> ImputeProblem:
     return replace(problem, given=(turned.hide(~given.visible),), truth=(turned.values,))
 
 
+def others() -> None:
+    """Print scores of `PoseKriging` and of ``makima`` on walks of people whom the task lacks."""
+    training = _posed("missing-frames", "35-03 three-walkers", 0).train
+    model, makima = PoseKriging(), MakimaImputer()
+    scores: dict[str, list[Array]] = {}
+    for person, uri in _walks_of_others():
+        problems = list(_posed_anywhere(uri, training))
+        ours = _mean_scores(model, problems, "rms_per_frame", "mpjpe", "coverage_95")
+        found = np.append(ours, _mean_scores(makima, problems, "rms_per_frame"))
+        print(uri, np.round(found, 2), flush=True)
+        scores.setdefault(person, []).append(found)
+    walks = np.concatenate([*scores.values()])
+    print(len(walks), "walks:", np.round(walks.mean(axis=0), 3))
+    print("greatest ratio:", np.max(walks[:, 0] / walks[:, -1]).round(3))
+    errors, of_makima = np.array([np.mean(of, axis=0)[[0, -1]] for of in scores.values()]).T
+    for what, each in {"ours": errors, "makima less ours": of_makima - errors}.items():
+        half = student.ppf(0.975, len(each) - 1) * sem(each)
+        print(f"{what}, {len(each)} people: {each.mean():.1f} ± {half:.1f}")
+
+
+def _walks_of_others() -> Iterator[tuple[str, str]]:
+    """Yield the person and the address of all walks of people whom `missing-frames` lacks."""
+    listed = read_csv(Path(datasets.__file__).with_name("people.tsv"), sep="\t", dtype=str)
+    known = {uri.removeprefix("cmu:")[:2] for uri in (*TRAINING, *TESTS)}
+    for row in listed[listed["shows"].str.contains("walk")].itertuples():
+        if row.person not in known:
+            yield row.person, f"cmu:{row.subject}_{row.trial}"
+
+
+def _posed_anywhere(uri: str, training: tuple[Recording, ...]) -> Iterator[ImputeProblem]:
+    """Yield the task's windows in the fifty frames during which the pelvis goes farthest."""
+    archive = bench.archive_at()
+    walk = archive.recording(uri)
+    ground = walk.values[::4, [walk.channels.index(f"root.t{axis}") for axis in "xz"]]
+    apart = np.linalg.norm(ground[N_TEST_FRAMES - 1 :] - ground[: 1 - N_TEST_FRAMES], axis=1)
+    test = gpdm_features(walk).frames(apart.argmax() + np.arange(N_TEST_FRAMES))
+    for fold in range(N_WINDOWS):
+        yield hide_window(test, training, fold, JointAngles(archive.skeleton(uri)))
+
+
+def _mean_scores(model: FrameImputer, problems: Sequence[ImputeProblem], *names: str) -> Array:
+    outcomes = [_outcome(problem, model.fit(problem.train)) for problem in problems]
+    metrics = [METRICS.get(name) for name in names]
+    return np.array([np.mean([of(each).value for each in outcomes]) for of in metrics])
+
+
 if __name__ == "__main__":
-    {"walkers": walkers, "tasks": tasks, "frames": frames, "headings": headings}[sys.argv[1]]()
+    globals()[sys.argv[1]]()
