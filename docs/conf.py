@@ -80,6 +80,7 @@ sphinx_gallery_conf = {
     "image_srcset": ["2x"],
     "abort_on_example_error": True,
     "write_computation_times": False,
+    "parallel": 2,
 }
 
 html_theme = "pydata_sphinx_theme"

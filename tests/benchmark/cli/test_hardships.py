@@ -13,7 +13,7 @@ from sessions import list_session
 
 TOY = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
 FAST = (*TOY, "--models", "trivial,cubic-spline")
-FOLDS = 150  # so many that the run is not over before it is disturbed
+FOLDS = 60  # so many that the run is not over before it is disturbed
 LONG = (*FAST, "--folds", FOLDS, "--jobs", 1)
 SCRIPT = "from mocapbench.benchmark.cli.main import main; main()"
 
