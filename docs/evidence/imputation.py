@@ -14,6 +14,7 @@ who are in no training, which choose nothing.
 
 from __future__ import annotations
 
+import csv
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -25,7 +26,6 @@ from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
-from pandas import read_csv
 from scipy.stats import sem
 from scipy.stats import t as student
 
@@ -216,11 +216,11 @@ def others() -> None:
 
 def _walks_of_others() -> Iterator[tuple[str, str]]:
     """Yield the person and the address of all walks of people whom `missing-frames` lacks."""
-    listed = read_csv(Path(datasets.__file__).with_name("people.tsv"), sep="\t", dtype=str)
     known = {uri.removeprefix("cmu:")[:2] for uri in (*TRAINING, *TESTS)}
-    for row in listed[listed["shows"].str.contains("walk")].itertuples():
-        if row.person not in known:
-            yield row.person, f"cmu:{row.subject}_{row.trial}"
+    listed = Path(datasets.__file__).with_name("people.tsv").read_text(encoding="utf-8")
+    for row in csv.DictReader(listed.splitlines(), delimiter="\t"):
+        if "walk" in row["shows"] and row["person"] not in known:
+            yield row["person"], f"cmu:{row['subject']}_{row['trial']}"
 
 
 def _posed_anywhere(uri: str, training: tuple[Recording, ...]) -> Iterator[ImputeProblem]:
