@@ -78,9 +78,12 @@ def _interpolate_lines(values: Values) -> Values:
     return filled
 
 
-if __name__ == "__main__":
-    folder = Path(sys.argv[2])  # after the step, which is always "fill"
+def _fill(folder: Path) -> None:
     for path in sorted((folder / "given").iterdir()):
         given = np.load(path)
         mean = fill_recording(given["values"], given["channels"].tolist())
         np.savez(folder / "filled" / path.name, mean=mean)
+
+
+if __name__ == "__main__":
+    _fill(Path(sys.argv[2]))  # after the step, which is always "fill"

@@ -34,7 +34,7 @@ _NETWORK |= {"mu_sigma": True, "beta_mu_sigma": 0.5}
 Values = NDArray[np.float64]
 Columns = NDArray[np.intp]
 """Of each keypoint the columns of its three coordinates, the upright one last; -1 for none."""
-Batch = tuple[Tensor, Tensor, Tensor]
+_Batch = tuple[Tensor, Tensor, Tensor]
 """Windows with zeros where keypoints are hidden, which are hidden, and the truth."""
 
 
@@ -69,12 +69,12 @@ def _place(values: Values, columns: Columns) -> Values:
 
 def _scale_windows(
     windows: Values, hidden: NDArray[np.bool_], columns: Columns
-) -> tuple[Batch, Callable[[Values], Values], Values]:
+) -> tuple[_Batch, Callable[[Values], Values], Values]:
     """Return windows as DISK scales them by what is visible and by lines across gaps.
 
     Returns
     -------
-    batch : Batch
+    batch : tuple of Tensor
     back : callable
         From coordinates of the network to those of the windows.
     sizes : array (windows, 1, 1, 1)
@@ -103,7 +103,7 @@ def _scale_windows(
     return (data, torch.tensor(holes).int(), truth), go_back, sizes[:, None, None, None]
 
 
-def _score_batch(network: nn.Module, batch: Batch) -> Tensor:
+def _score_batch(network: nn.Module, batch: _Batch) -> Tensor:
     """Return DISK's loss, or where nothing is learnt the error by which it chooses an epoch."""
     given, holes, truth = batch
     quiet, distances = logging.getLogger("disk"), nn.L1Loss(reduction="none")
@@ -127,7 +127,7 @@ def _learn(folder: Path) -> None:
     columns = find_columns(parts, training.reshape(-1, training.shape[2]))
     np.save(folder / "model" / "columns.npy", columns)
 
-    def make_batch(windows: Values) -> Batch:
+    def make_batch(windows: Values) -> _Batch:
         count, length, n_channels = windows.shape
         after_first = hide_gaps((count, length - 1, n_channels), parts, rng)  # DISK sees the first
         hidden = np.pad(after_first, ((0, 0), (1, 0), (0, 0)))

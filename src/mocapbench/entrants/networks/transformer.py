@@ -20,7 +20,7 @@ from recordings import fill_recordings, hide_gaps, interpolate_lines, load_windo
 from torch import Tensor, nn
 from training import load_network, save_network, seed_everything, train_network
 
-__all__ = ["Transformer"]
+__all__ = ["STEPS"]
 
 _LONGEST, _BATCH, _RATE = 96, 8, 5e-4
 """Frames of a window, windows of a batch, and the rate of learning."""
@@ -29,7 +29,7 @@ _LEAST, _MOST = -7.0, 3.0
 """Logarithms of standard deviations, of scaled values."""
 
 
-class Transformer(nn.Module):
+class _Transformer(nn.Module):
     """Four layers over frames.
 
     Parameters
@@ -64,11 +64,11 @@ def _encode_positions(length: int) -> Tensor:
     return torch.stack([angles.sin(), angles.cos()], dim=-1).reshape(length, _SIZE)
 
 
-Batch = tuple[Tensor, Tensor, Tensor, Tensor]
+_Batch = tuple[Tensor, Tensor, Tensor, Tensor]
 """Lines, which entries are hidden, how far they are from visible ones, and the truth."""
 
 
-def _make_batch(windows: NDArray[np.float64], gaps: NDArray[np.bool_]) -> Batch:
+def _make_batch(windows: NDArray[np.float64], gaps: NDArray[np.bool_]) -> _Batch:
     """Return windows with gaps; entries that nobody knows are hidden, and have no truth."""
     given = np.where(gaps, np.nan, windows)
     lines, away = interpolate_lines(given)
@@ -77,7 +77,7 @@ def _make_batch(windows: NDArray[np.float64], gaps: NDArray[np.bool_]) -> Batch:
     return lines, hidden, away, truth
 
 
-def _score_batch(network: nn.Module, batch: Batch) -> Tensor:
+def _score_batch(network: nn.Module, batch: _Batch) -> Tensor:
     *inputs, truth = batch
     mean, log_deviation = network(*inputs)
     asked = (inputs[1] > 0) & truth.isfinite()
@@ -92,7 +92,7 @@ def _learn(folder: Path) -> None:
     rng = seed_everything()
     training, held_out, parts = load_windows(folder, _LONGEST, rng)
 
-    def draw() -> Batch:
+    def draw() -> _Batch:
         windows = training[rng.integers(0, len(training), _BATCH)]
         return _make_batch(windows, hide_gaps(windows.shape, parts, rng))
 
@@ -101,7 +101,7 @@ def _learn(folder: Path) -> None:
         for _ in range(2)
         for k in range(0, len(held_out), _BATCH)
     ]
-    network = Transformer(training.shape[2])
+    network = _Transformer(training.shape[2])
     train_network(network, lambda batch: _score_batch(network, batch), draw, kept, _RATE)
     save_network(network, folder)
 
@@ -109,7 +109,7 @@ def _learn(folder: Path) -> None:
 def _fill(folder: Path) -> None:
     seed_everything()
     with np.load(folder / "model" / "scale.npz") as scale:
-        network = Transformer(len(scale["centre"]))
+        network = _Transformer(len(scale["centre"]))
     load_network(network, folder)
 
     @torch.no_grad()
