@@ -317,4 +317,7 @@ def _declare_coverage(percent: int) -> Metric[Imputation]:
     return declare(partial(interval_coverage, level=level))
 
 
-coverage_50, coverage_80, coverage_90, coverage_95 = map(_declare_coverage, (50, 80, 90, 95))
+coverage_50: Metric[Imputation] = _declare_coverage(50)
+coverage_80: Metric[Imputation] = _declare_coverage(80)
+coverage_90: Metric[Imputation] = _declare_coverage(90)
+coverage_95: Metric[Imputation] = _declare_coverage(95)

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Score, has_poses, metric
+from mocapbench.metrics.base import Direction, Metric, Score, has_poses, metric
 from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
@@ -119,9 +119,9 @@ def _mean_distance(outcome: Imputation, *, frame: int) -> Score:
     return Score(float(distances.mean()), {"joint": distances.mean(axis=0)})
 
 
-mpjpe_at_2, mpjpe_at_4, mpjpe_at_8, mpjpe_at_10, mpjpe_at_14, mpjpe_at_25 = (
-    metric(
-        title=f"Joint position error at frame {frame} (printed as {printed} ms), mm",
+def _declare_horizon(frame: int) -> Metric[Imputation]:
+    declare = metric(
+        title=f"Joint position error at frame {frame} (printed as {HORIZONS[frame]} ms), mm",
         direction=Direction.LOWER,
         sentence=(
             f"Mean distance of predicted joints from true ones {frame} frames after the last "
@@ -132,6 +132,13 @@ mpjpe_at_2, mpjpe_at_4, mpjpe_at_8, mpjpe_at_10, mpjpe_at_14, mpjpe_at_25 = (
         source="Mao et al. 2019",
         defined=partial(_is_continued, frame=frame),
         name=f"mpjpe_at_{frame}",
-    )(partial(_mean_distance, frame=frame))
-    for frame, printed in HORIZONS.items()
-)
+    )
+    return declare(partial(_mean_distance, frame=frame))
+
+
+mpjpe_at_2: Metric[Imputation] = _declare_horizon(2)
+mpjpe_at_4: Metric[Imputation] = _declare_horizon(4)
+mpjpe_at_8: Metric[Imputation] = _declare_horizon(8)
+mpjpe_at_10: Metric[Imputation] = _declare_horizon(10)
+mpjpe_at_14: Metric[Imputation] = _declare_horizon(14)
+mpjpe_at_25: Metric[Imputation] = _declare_horizon(25)

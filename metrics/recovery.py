@@ -186,5 +186,7 @@ def _declare_logdet(layer: str) -> Metric[Recovery]:
     return declare(partial(log_det_divergence, layer=layer))
 
 
-frobenius_child, frobenius_parent = map(_declare_frobenius, ("child", "parent"))
-logdet_child, logdet_parent = map(_declare_logdet, ("child", "parent"))
+frobenius_child: Metric[Recovery] = _declare_frobenius("child")
+frobenius_parent: Metric[Recovery] = _declare_frobenius("parent")
+logdet_child: Metric[Recovery] = _declare_logdet("child")
+logdet_parent: Metric[Recovery] = _declare_logdet("parent")
