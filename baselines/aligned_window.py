@@ -94,7 +94,7 @@ class AlignedWindow(FrameImputer, Inductive):
         FrameImputer.provides | Inductive.provides | {"scales along"}
     )
 
-    max_frames = 8000
+    max_frames: ClassVar[int | None] = 8000
 
     def __init__(self, n_windows: int = 5) -> None:
         self.n_windows = n_windows

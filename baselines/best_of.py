@@ -101,7 +101,7 @@ class BestOf(Imputer, Inductive):
     family: ClassVar[str] = "Several models"
     provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"scales along"}
 
-    max_frames = 1000
+    max_frames: ClassVar[int | None] = 1000
 
     def __init__(self, shrinkage: float = 0.5) -> None:
         self.shrinkage = shrinkage

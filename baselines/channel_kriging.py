@@ -96,8 +96,8 @@ class ChannelKriging(Imputer, Inductive):
         Imputer.provides | Inductive.provides | {"moves along", "scales along"}
     )
 
-    max_frames = 3000
-    learns_in_fit = False
+    max_frames: ClassVar[int | None] = 3000
+    learns_in_fit: ClassVar[bool] = False
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the recordings.

@@ -12,6 +12,7 @@ from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.profile import fit_profile
 from mocapbench.baselines.alignment.restarts import random_cycle
 from mocapbench.baselines.common.ascent import Ascent
+from mocapbench.basics.arrays import Array
 
 __all__ = ["CPM"]
 
@@ -133,8 +134,8 @@ class CPM(CycleAligner):
         return max(runs, key=lambda run: run.objectives[-1])
 
     def _describe(self, run: Ascent[State], places: NDArray[np.intp]) -> None:
-        self.log_likelihood_ = np.array(run.objectives)
+        self.log_likelihood_: Array = np.array(run.objectives)
         trace = run.state.cycles.mean[:, 0]
         given = self.sequences_.rows(places)
-        self.trace_ = self._restore_units(trace)
-        self.prototypes_ = self._restore_units(prototypes(self.path_, given, trace))
+        self.trace_: Array = self._restore_units(trace)
+        self.prototypes_: Array = self._restore_units(prototypes(self.path_, given, trace))

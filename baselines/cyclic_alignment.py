@@ -164,7 +164,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         | Synthesiser.provides
         | {"scales along"}
     )
-    max_frames = 500
+    max_frames: ClassVar[int | None] = 500
 
     def __init__(
         self,
@@ -277,13 +277,13 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
             )
             for _ in range(self.n_restarts)
         ]
-        self.restart_bounds_ = np.array([run.objectives[-1] for run in self.runs_])
+        self.restart_bounds_: Array = np.array([run.objectives[-1] for run in self.runs_])
         return self.runs_[int(self.restart_bounds_.argmax())]
 
     def _describe(self, run: Ascent[State], places: NDArray[np.intp]) -> None:
-        self.bound_ = np.array(run.objectives)
+        self.bound_: Array = np.array(run.objectives)
         self.cycles_: Array = self._restore_units(run.state.cycles.mean.swapaxes(0, 1))
-        self.probabilities_ = run.state.labels[places]
+        self.probabilities_: Array = run.state.labels[places]
         self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)
 
     def _mixture(self, recording: Recording, states: Sequence[State]) -> Prediction:

@@ -168,24 +168,24 @@ class FAM(Imputer, Inductive, Aligner):
             has no frame, channels differ, a name repeats, or a channel is nowhere visible.
         """
         check_settings(self.get_params())
-        checked = check_recordings(recordings)
-        self.recordings_ = checked
-        self.channels_: tuple[str, ...] = checked[0].channels
-        self.units_: tuple[str, ...] = checked[0].units
-        ordered, places = by_content(checked), places_by_content(checked)
+        self.recordings_: tuple[Recording, ...] = check_recordings(recordings)
+        self.channels_: tuple[str, ...] = self.recordings_[0].channels
+        self.units_: tuple[str, ...] = self.recordings_[0].units
+        ordered, places = by_content(self.recordings_), places_by_content(self.recordings_)
         self.scaling_: Standardisation = Standardisation.of(ordered)
         scaled = [self.scaling_.apply(recording) for recording in ordered]
         periods = cycle_periods(scaled)
-        self.reference_, shifts = self._shift_together(scaled, periods)
+        reference, shifts = self._shift_together(scaled, periods)
+        self.reference_: Array = reference
         phases = [
             SHIFTS[shift] + elapsed_times(recording) / period
             for shift, recording, period in zip(shifts, scaled, periods, strict=True)
         ]
-        self.cycle_length_ = self._n_states(scaled, periods)
-        self.periods_, self.offsets_ = periods[places], SHIFTS[shifts][places]
-        self.path_ = tuple(self._states(phases[k]) for k in places)
-        curves, owners = cut_cycles(scaled, phases)
-        self._learn(CurveStatistics.of(curves, self.n_harmonics), owners, places)
+        self.cycle_length_: int = self._n_states(scaled, periods)
+        self.periods_: Array = periods[places]
+        self.offsets_: Array = SHIFTS[shifts][places]
+        self.path_: tuple[StatePath, ...] = tuple(self._states(phases[k]) for k in places)
+        self._learn(*cut_cycles(scaled, phases), places)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -232,27 +232,31 @@ class FAM(Imputer, Inductive, Aligner):
         )
 
     def _learn(
-        self, cycles: CurveStatistics, owners: NDArray[np.intp], places: NDArray[np.intp]
+        self,
+        cycles: Sequence[tuple[Array, Array]],
+        owners: NDArray[np.intp],
+        places: NDArray[np.intp],
     ) -> None:
         """Set the mean, the components and, of the recordings at ``places`` (K,), prototypes."""
+        statistics = CurveStatistics.of(cycles, self.n_harmonics)
         n_components = min(self.n_components, len(owners) - 1)
         fit = fit_components(
-            cycles,
-            start_components(cycles, self.reference_, n_components, self.smoothness),
+            statistics,
+            start_components(statistics, self.reference_, n_components, self.smoothness),
             self.smoothness,
             max_iter=self.max_iter,
             tol=self.tol,
         )
-        self.log_likelihood_ = np.array(fit.objectives)
+        self.log_likelihood_: Array = np.array(fit.objectives)
         self.converged_: bool = fit.converged
         self.n_iterations_: int = fit.n_iterations
         self.coefficients_: Array = find_principal_axes(fit.state.coefficients)
         self.noise_: Array = fit.state.noise
         curves = sample_curves(self.coefficients_, self.cycle_length_)
-        self.mean_cycle_ = self.scaling_.restore(curves[0])
-        self.components_ = curves[1:] * self.scaling_.scale
-        cycle = prototypes(fit.state, cycles.counts.sum(axis=1), owners)[places]
-        self.prototypes_ = self.scaling_.restore(sample_curves(cycle, self.cycle_length_))
+        self.mean_cycle_: Array = self.scaling_.restore(curves[0])
+        self.components_: Array = curves[1:] * self.scaling_.scale
+        cycle = prototypes(fit.state, statistics.counts.sum(axis=1), owners)[places]
+        self.prototypes_: Array = self.scaling_.restore(sample_curves(cycle, self.cycle_length_))
 
     def _n_states(self, scaled: Sequence[Recording], periods: Array) -> int:
         """Return two states a frame of a cycle, but at least one for each coefficient."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 
 from mocapbench.baselines.gpdm.dynamics import Dynamics, Static
@@ -88,7 +90,7 @@ class GPLVM(LatentVariableModel):
     ((20, 2), (1, 2))
     """
 
-    max_frames = 300
+    max_frames: ClassVar[int | None] = 300
 
     def __init__(
         self,

@@ -13,6 +13,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.checks import check_channels, check_known, check_recordings
 from mocapbench.baselines.common.recordings import visible_means
 from mocapbench.baselines.protocols import Inductive, Interpolator, Prediction
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
 __all__ = [
@@ -50,7 +51,7 @@ class _Interpolation(Interpolator, Inductive):
         checked = check_recordings(recordings)
         self.channels_: tuple[str, ...] = checked[0].channels
         self.units_: tuple[str, ...] = checked[0].units
-        self.mean_ = visible_means(checked)
+        self.mean_: Array = visible_means(checked)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
+from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_recordings
@@ -13,6 +14,7 @@ from mocapbench.baselines.common.cycle_settings import check_settings
 from mocapbench.baselines.common.prototypes import cluster_cycles
 from mocapbench.baselines.cpm import CPM
 from mocapbench.baselines.protocols import Aligner, Clusterer, StatePath
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["KCPM"]
@@ -117,10 +119,13 @@ class KCPM(Clusterer, Aligner):
         rng = np.random.default_rng(self.random_state)
         parameters = {k: v for k, v in self.get_params().items() if k != "n_styles"}
         self.cpm_: CPM = CPM(**{**parameters, "random_state": rng}).fit(checked)
-        self.path_, self.cycle_length_ = self.cpm_.path_, self.cpm_.cycle_length_
-        self.labels_, self.cycles_ = cluster_cycles(
+        self.path_: tuple[StatePath, ...] = self.cpm_.path_
+        self.cycle_length_: int = self.cpm_.cycle_length_
+        labels, cycles = cluster_cycles(
             self.cpm_.prototypes_, self.cpm_.scaling_.scale, self.n_styles, self.n_restarts, rng
         )
+        self.labels_: NDArray[np.intp] = labels
+        self.cycles_: Array = cycles
         return self
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:

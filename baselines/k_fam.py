@@ -6,12 +6,14 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
+from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.cycle_settings import check_settings
 from mocapbench.baselines.common.prototypes import cluster_cycles
 from mocapbench.baselines.fam import FAM
 from mocapbench.baselines.protocols import Aligner, Clusterer, StatePath
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["KFAM"]
@@ -112,10 +114,13 @@ class KFAM(Clusterer, Aligner):
         rng = np.random.default_rng(self.random_state)
         parameters = {k: v for k, v in self.get_params().items() if k != "n_styles"}
         self.fam_: FAM = FAM(**{**parameters, "random_state": rng}).fit(recordings)
-        self.path_, self.cycle_length_ = self.fam_.path_, self.fam_.cycle_length_
-        self.labels_, self.cycles_ = cluster_cycles(
+        self.path_: tuple[StatePath, ...] = self.fam_.path_
+        self.cycle_length_: int = self.fam_.cycle_length_
+        labels, cycles = cluster_cycles(
             self.fam_.prototypes_, self.fam_.scaling_.scale, self.n_styles, self.n_restarts, rng
         )
+        self.labels_: NDArray[np.intp] = labels
+        self.cycles_: Array = cycles
         return self
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mocapbench.baselines.alignment.cycle_start import cycle_length
 from mocapbench.baselines.common.checks import check_recordings, check_visible
@@ -102,10 +103,10 @@ class KMeans(Clusterer):
         checked = check_recordings(recordings)
         check_visible(checked)
         mean, _ = visible_moments(checked)
-        self.cycles_ = np.stack([_cycle(recording, self.n_frames, mean) for recording in checked])
+        self.cycles_: Array = np.stack([_cycle(each, self.n_frames, mean) for each in checked])
         points = self.cycles_.reshape(len(checked), -1)
         rng = np.random.default_rng(self.random_state)
-        self.labels_ = group_rows(points, self.n_styles, self.n_restarts, rng)
+        self.labels_: NDArray[np.intp] = group_rows(points, self.n_styles, self.n_restarts, rng)
         return self
 
 

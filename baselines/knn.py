@@ -100,7 +100,7 @@ class KNN(Imputer, Inductive):
     family: ClassVar[str] = "Neighbours"
     provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"scales along"}
 
-    max_frames = 2000
+    max_frames: ClassVar[int | None] = 2000
 
     def __init__(self, n_neighbors: int = 15) -> None:
         self.n_neighbors = n_neighbors

@@ -141,8 +141,9 @@ class LDS(Imputer, Inductive, Synthesiser):
         data = self._observations(self.recordings_)
         first = start_parameters(initial_states(data, self.n_states), data, PRIORS)
         run = expectation_maximisation(first, data, PRIORS, max_iter=self.max_iter, tol=self.tol)
-        (self.parameters_, _), self.converged_ = run.state, run.converged
-        self.objective_ = np.array(run.objectives)
+        self.parameters_: StateSpaceParameters = run.state[0]
+        self.converged_: bool = run.converged
+        self.objective_: Array = np.array(run.objectives)
         self.n_iterations_: int = run.n_iterations
         self.n_states_: int = self.parameters_.n_states
         self._data = data

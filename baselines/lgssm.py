@@ -135,11 +135,11 @@ class LGSSM(Clusterer):
         data = Sequences.of([self.scaling_.apply(recording).values for recording in ordered])
         states, rng = initial_states(data, self.n_states), np.random.default_rng(self.random_state)
         runs = [self._run(states, data, rng) for _ in range(self.n_restarts)]
-        self.restart_objectives_ = np.array([run.state.objective for run in runs])
+        self.restart_objectives_: Array = np.array([run.state.objective for run in runs])
         best = runs[int(self.restart_objectives_.argmax())]
         self.mixture_: Mixture = best.state
         self.converged_: bool = best.converged
-        self.objective_ = np.array(best.objectives)
+        self.objective_: Array = np.array(best.objectives)
         self.n_iterations_: int = best.n_iterations
         self.labels_: NDArray[np.intp] = best.state.labels[places_by_content(checked)]
         return self

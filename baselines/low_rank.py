@@ -148,7 +148,7 @@ class LowRank(Imputer, Inductive):
         )
         self.loadings_: Array = run.state.loadings
         self.noise_variance_: float = run.state.noise
-        self.objective_ = np.array(run.objectives)
+        self.objective_: Array = np.array(run.objectives)
         self.n_iterations_: int = run.n_iterations
         self.converged_: bool = run.converged
 

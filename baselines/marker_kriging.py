@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import ClassVar, Self
 
 import numpy as np
+from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings, pool
@@ -117,7 +118,7 @@ class MarkerKriging(Imputer, Inductive):
         self.recordings_: tuple[Recording, ...] = by_content(check_recordings(recordings))
         self.channels_: tuple[str, ...] = self.recordings_[0].channels
         self.units_: tuple[str, ...] = self.recordings_[0].units
-        self.markers_ = marker_places(self.channels_, self.units_)
+        self.markers_: NDArray[np.intp] = marker_places(self.channels_, self.units_)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

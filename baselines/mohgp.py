@@ -25,7 +25,7 @@ from mocapbench.baselines.gp.prior.parameters import CHILD
 from mocapbench.baselines.gp.reduction.hierarchy import reduce_hierarchy
 from mocapbench.baselines.gp.reduction.reduction import Reduction, Replicates
 from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow, is_path
-from mocapbench.baselines.gp.registration import REGISTRATIONS
+from mocapbench.baselines.gp.registration import REGISTRATIONS, TimeMap
 from mocapbench.baselines.protocols import Trended
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
@@ -139,7 +139,7 @@ class MOHGP(GaussianProcess, Trended):
         # What `impute` takes. Only complete recordings have moved, of which nothing is to fill.
         named = {recording.name: recording for recording in given}
         self.recordings_: dict[str, Recording] = {name: named[name] for name in self.recordings_}
-        self.clocks_ = {moved.name: clock for moved, clock in registered}
+        self.clocks_: dict[str, TimeMap] = {moved.name: clock for moved, clock in registered}
         return self
 
     def _process_times(self, recording: Recording, times: Frames | None) -> Frames:

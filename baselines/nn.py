@@ -84,7 +84,7 @@ class NN(Imputer, Inductive):
     family: ClassVar[str] = "Neighbours"
     provides: ClassVar[frozenset[str]] = Imputer.provides | Inductive.provides | {"scales along"}
 
-    max_frames = 4000
+    max_frames: ClassVar[int | None] = 4000
 
     def __init__(self, weights: Mapping[str, float] | None = None) -> None:
         self.weights = weights
@@ -102,7 +102,7 @@ class NN(Imputer, Inductive):
         self.channels_: tuple[str, ...] = checked[0].channels
         self.units_: tuple[str, ...] = checked[0].units
         self.frames_: FrameByChannel = stack(checked)
-        self.weights_ = _weights(self.weights, self.channels_) * pose_factors(self.units_)
+        self.weights_: Array = _weights(self.weights, self.channels_) * pose_factors(self.units_)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

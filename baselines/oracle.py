@@ -111,7 +111,7 @@ class Oracle(Imputer, Synthesiser, Trended):
         check_outputs(checked, self.process_)
         self.channels_: tuple[str, ...] = checked[0].channels
         self.units_: tuple[str, ...] = checked[0].units
-        self.times_ = np.unique(np.concatenate([recording.times for recording in checked]))
+        self.times_: Array = np.unique(np.concatenate([recording.times for recording in checked]))
         self._parent = self.process_.parent.covariance(self.times_)
         self._within = self.process_.child.covariance(self.times_)
         self._within += self.process_.noise * np.eye(len(self._within))

@@ -32,6 +32,7 @@ from mocapbench.baselines.common.validation import (
 from mocapbench.baselines.kriging.conditioned import copy_gaps, growth_of_variance
 from mocapbench.baselines.kriging.frame_rates import keep_thirty_frames, restore_frames
 from mocapbench.baselines.kriging.mirror_images import (
+    Image,
     MirroredResiduals,
     find_symmetries,
     images_of,
@@ -176,7 +177,7 @@ class PoseKriging(FrameImputer, Inductive):
         | {"turns along", "moves along", "mirrors along", "scales along", "resamples along"}
     )
 
-    max_frames = 500
+    max_frames: ClassVar[int | None] = 500
 
     def __init__(
         self,
@@ -221,7 +222,7 @@ class PoseKriging(FrameImputer, Inductive):
         self.directions_: Array = mean_directions(ahead)
         usable = [in_pose_units(self._wrap_angles(one)) for one in with_steps(ahead)]
         self.names_: tuple[str, ...] = tuple(recording.name for recording in usable)
-        self.symmetries_ = find_symmetries(usable)
+        self.symmetries_: tuple[Image, ...] = find_symmetries(usable)
         self.matchers_: list[PoseViterbi] = [
             PoseViterbi(self.smoothness, steps=self.steps).fit([image.of_recording(recording)])
             for image in self.symmetries_

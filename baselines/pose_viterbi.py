@@ -23,6 +23,7 @@ from mocapbench.baselines.common.recordings import by_content, complete_stretche
 from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["PoseViterbi"]
@@ -89,7 +90,7 @@ class PoseViterbi(FrameImputer, Inductive):
         FrameImputer.provides | Inductive.provides | {"scales along"}
     )
 
-    max_frames = 1000
+    max_frames: ClassVar[int | None] = 1000
 
     def __init__(
         self, smoothness: float = 10.0, subject_offset: float = 1.0, *, steps: int = 1
@@ -115,9 +116,9 @@ class PoseViterbi(FrameImputer, Inductive):
         self.units_: tuple[str, ...] = checked[0].units
         moved = [in_pose_units(recording) for recording in checked]
         stretches = [_refine_stretch(each, self.steps) for each in complete_stretches(moved)]
-        self.frames_ = np.concatenate(stretches)
+        self.frames_: FrameByChannel = np.concatenate(stretches)
         following = np.concatenate([_follows(len(each), self.steps) for each in stretches])
-        self.transition_ = self.smoothness * _jumps(self.frames_, following, self.steps)
+        self.transition_: Array = self.smoothness * _jumps(self.frames_, following, self.steps)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -123,7 +123,7 @@ class RigidBody(Imputer, Inductive):
         checked = check_recordings(recordings)
         self.channels_: tuple[str, ...] = checked[0].channels
         self.units_: tuple[str, ...] = checked[0].units
-        self.markers_ = marker_places(self.channels_, self.units_)
+        self.markers_: NDArray[np.intp] = marker_places(self.channels_, self.units_)
         self._curves = PchipImputer().fit(checked)
         return self
 

@@ -59,14 +59,14 @@ class CycleAligner(Aligner):
         self.scaling_: Standardisation = Standardisation.of(ordered)
         self.names_: tuple[str, ...] = tuple(recording.name for recording in ordered)
         self.sequences_: Sequences = self._sequences(ordered)
-        self.cycle_length_ = self.n_states or default_states(self.sequences_, self.max_jump)
+        self.cycle_length_: int = self.n_states or default_states(self.sequences_, self.max_jump)
         self.hyper_: Hyperparameters = self._hyperparameters()
         run = self._learn(np.random.default_rng(self.random_state))
         self.state_: State = run.state
         self.converged_: bool = run.converged
         self.n_iterations_: int = run.n_iterations
         paths = best_paths(self.state_, self.sequences_)
-        self.path_ = tuple(paths[k] for k in places)
+        self.path_: tuple[StatePath, ...] = tuple(paths[k] for k in places)
         self.fitted_: dict[str, tuple[Recording, StatePath]] = {
             r.name: (r, path) for r, path in zip(checked, self.path_, strict=True)
         }

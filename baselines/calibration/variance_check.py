@@ -34,7 +34,7 @@ from mocapbench.baselines.calibration.held_out_gaps import (
 )
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.basics.arrays import Array
-from mocapbench.datasets import Recording
+from mocapbench.datasets import Mask, Recording
 
 __all__ = ["STEEPEST", "VarianceCheck"]
 
@@ -74,8 +74,8 @@ class VarianceCheck:
         self, recording: Recording, alternatives: Alternatives = copies_or_islands
     ) -> None:
         self.recording = recording
-        self.copies = hold_out_gaps(recording, alternatives)
-        self.halves = [halve_gaps(~recording.visible, mask) for mask in self.copies]
+        self.copies: list[Mask] = hold_out_gaps(recording, alternatives)
+        self.halves: list[Mask] = [halve_gaps(~recording.visible, mask) for mask in self.copies]
         if not self._short.any():
             self.halves = []
 

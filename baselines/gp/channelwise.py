@@ -70,9 +70,9 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         The solvers that were used.
     """
 
-    family = "Gaussian processes"
+    family: ClassVar[str] = "Gaussian processes"
     provides: ClassVar[frozenset[str]] = Imputer.provides | Synthesiser.provides | {"scales along"}
-    max_frames = 200
+    max_frames: ClassVar[int | None] = 200
 
     n_components: int | Mapping[str, int] = 1
     kernel: str = "matern32"
@@ -115,7 +115,7 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         models = self._build_models(checked[0].channels)
         self.channels_: tuple[str, ...] = checked[0].channels
         self.units_: tuple[str, ...] = checked[0].units
-        self.models_ = tuple(
+        self.models_: tuple[Single, ...] = tuple(
             model.fit([recording.select([channel]) for recording in checked])
             for channel, model in models.items()
         )

@@ -138,11 +138,11 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         Noise variances, in the outputs' own units.
     """
 
-    family = "Gaussian processes"
+    family: ClassVar[str] = "Gaussian processes"
     provides: ClassVar[frozenset[str]] = (
         Imputer.provides | Synthesiser.provides | Coregionalised.provides | {"scales along"}
     )
-    max_frames = 200
+    max_frames: ClassVar[int | None] = 200
 
     n_components: int | Mapping[str, int] = 1
     rank: int = 1

@@ -101,7 +101,7 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
         rng = np.random.default_rng(self.random_state)
         self.estimate_: PointEstimate = learning.learn(posterior, start, rng)
         self.conditional_: Conditional = Conditional.of(posterior, self.estimate_)
-        self.kernel_properties_ = self._properties(posterior)
+        self.kernel_properties_: dict[str, float] = self._properties(posterior)
         return self
 
     def _check_recordings(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import ClassVar
 
 import numpy as np
 
@@ -138,7 +139,7 @@ class GPDM(DynamicalModel):
     True
     """
 
-    max_frames = 300
+    max_frames: ClassVar[int | None] = 300
 
     def __init__(
         self,

@@ -6,7 +6,7 @@ motion data*, PLoS ONE 17(8), 2022, whose masks and errors its authors publish o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -31,7 +31,7 @@ SHARE = 370 / 400
 N_BESIDE = 5  # visible frames at either end, at the least, where gaps are as in real files
 
 PAPERS, OTHER, SYNTHETIC = "cmu:135_02.c3d", "cmu:85_02.c3d", "gait:01_01"
-STRETCHES = {
+STRETCHES: Mapping[str, tuple[tuple[int, int], ...]] = {
     PAPERS: ((50, 450), (450, 850), (1050, 1450), (1450, 1850)),
     OTHER: ((50, 450), (450, 810)),
     SYNTHETIC: ((50, 250), (250, 331)),

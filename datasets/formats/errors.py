@@ -53,7 +53,7 @@ class MissingExtraError(FormatError):
     def __init__(self, file: str, package: str, extra: str) -> None:
         advice = f"pip install 'mocapbench[{extra}]'"
         super().__init__(file, f"the package {package}", "none", advice)
-        self.args = (file, package, extra)
+        self.args: tuple[str, str, str] = (file, package, extra)
         self.package = package
 
     def __str__(self) -> str:

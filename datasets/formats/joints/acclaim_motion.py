@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import degrees
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 
@@ -38,8 +39,8 @@ class AcclaimFormat(Format):
     which is written in radians again.
     """
 
-    suffixes = (".amc",)
-    memory_per_byte = 20.0
+    suffixes: ClassVar[tuple[str, ...]] = (".amc",)
+    memory_per_byte: ClassVar[float] = 20.0
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""

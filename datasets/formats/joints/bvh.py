@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from math import isfinite
 from pathlib import Path
+from typing import ClassVar
 
 from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import even_times, recording_of
@@ -41,8 +42,8 @@ class BVHFormat(Format):
     numbers may have decimal commas. Every line keeps its numbers, but for those that are filled.
     """
 
-    suffixes = (".bvh",)
-    memory_per_byte = 12.0
+    suffixes: ClassVar[tuple[str, ...]] = (".bvh",)
+    memory_per_byte: ClassVar[float] = 12.0
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""

@@ -8,7 +8,7 @@ import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,8 +62,8 @@ class NPZFormat(Format):
     all poses and in those that repeat a part of it, such as ``pose_body``; all other arrays stay.
     """
 
-    suffixes = (".npz",)
-    memory_per_byte = 12.0
+    suffixes: ClassVar[tuple[str, ...]] = (".npz",)
+    memory_per_byte: ClassVar[float] = 12.0
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""

@@ -6,7 +6,7 @@ import shutil
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,8 +45,8 @@ class C3DFormat(Format):
     not at all.
     """
 
-    suffixes = (".c3d",)
-    memory_per_byte = 12.0
+    suffixes: ClassVar[tuple[str, ...]] = (".c3d",)
+    memory_per_byte: ClassVar[float] = 12.0
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from typing import ClassVar
 
 from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.markers.channels import marker_channels
@@ -49,7 +50,7 @@ class TRCFormat(TextTableFormat):
         written.
     """
 
-    suffixes = (".trc",)
+    suffixes: ClassVar[tuple[str, ...]] = (".trc",)
 
     def sheet(self, path: Path) -> Sheet[TextTable]:
         """Return the table of a file, without rows that are missing."""

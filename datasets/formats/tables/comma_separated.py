@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import ClassVar
 
 from mocapbench.datasets.formats.tables.sheet import Sheet, read_sheet
 from mocapbench.datasets.formats.tables.table_format import TextTableFormat
@@ -46,7 +47,7 @@ class CSVFormat(TextTableFormat):
     ['time;knee [deg]', '0;1,50', '0,1;2,0', '0,2;2,50']
     """
 
-    suffixes = (".csv", ".tsv", ".mot", ".sto")
+    suffixes: ClassVar[tuple[str, ...]] = (".csv", ".tsv", ".mot", ".sto")
 
     def sheet(self, path: Path) -> Sheet[TextTable]:
         """Return the table of a file, without rows that are missing."""

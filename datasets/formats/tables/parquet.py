@@ -6,11 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 from sys import intern
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.isolation.calls import IsolatedCallError, call_isolated
 from mocapbench.datasets.formats.tables.clock_times import is_clock, read_clocks, set_clock
@@ -47,9 +48,9 @@ class ParquetFormat(TableFormat):
         written.
     """
 
-    suffixes = (".parquet",)
-    needs = ("pyarrow", "parquet")
-    memory_per_byte = 24.0
+    suffixes: ClassVar[tuple[str, ...]] = (".parquet",)
+    needs: ClassVar[tuple[str, str] | None] = ("pyarrow", "parquet")
+    memory_per_byte: ClassVar[float] = 24.0
 
     def sheet(self, path: Path) -> Sheet[ParquetTable]:
         """Return the table of a file, without rows that are missing."""
@@ -98,7 +99,9 @@ class ParquetTable:
     def __init__(self, file: str, read: Mapping[str, NDArray[Any]]) -> None:
         self.file = file
         self.names: list[str] = read["names"].tolist()
-        self.numbers = {k: read["values"][:, k] for k in np.flatnonzero(read["is_number"]).tolist()}
+        self.numbers: dict[int, Array] = {
+            k: read["values"][:, k] for k in np.flatnonzero(read["is_number"]).tolist()
+        }
         self.rows: range = range(len(read["values"]))
         self._read = read
 

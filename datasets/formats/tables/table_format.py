@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Self, TypeVar
+from typing import ClassVar, Self, TypeVar
 
 from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.tables.insertion import lines_with
@@ -33,7 +33,7 @@ class TableFormat(Format):
 
     inserts: bool = False
 
-    memory_per_byte = 12.0
+    memory_per_byte: ClassVar[float] = 12.0
 
     @abstractmethod
     def sheet(self, path: Path) -> Sheet[RowTable]:

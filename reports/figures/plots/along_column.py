@@ -39,7 +39,8 @@ class AlongColumn(Plot):
     """
 
     def __init__(self, column: str, title: str) -> None:
-        self.column, self.title = column, title
+        self.column: str = column
+        self.title: str = title
 
     def tabulate(
         self, bundle: Bundle, results: TaskResults, metrics: Sequence[str]

@@ -7,6 +7,7 @@ thesis, Universidad Tecnológica de Pereira, 2017, Figures 17–24.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 import pandas as pd
@@ -34,7 +35,7 @@ _COLUMNS = (
 class ByCase(Plot):
     """A panel for each metric of the page, cases from left to right, a marker for each model."""
 
-    narrowest = 36.0
+    narrowest: ClassVar[float] = 36.0
 
     def tabulate(
         self, bundle: Bundle, results: TaskResults, metrics: Sequence[str]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import groupby
+from typing import ClassVar
 
 import numpy as np
 import pandas as pd
@@ -32,8 +33,8 @@ _COLUMNS = (
 class Covariances(Plot):
     """A panel for each matrix, all of a figure on one scale around zero."""
 
-    narrowest = 8.5
-    shows_pictures = True
+    narrowest: ClassVar[float] = 8.5
+    shows_pictures: ClassVar[bool] = True
 
     def tabulate(
         self, bundle: Bundle, results: TaskResults, metrics: Sequence[str]

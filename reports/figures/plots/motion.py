@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 import pandas as pd
@@ -32,8 +33,8 @@ _COLUMNS = (
 class StickFigures(Plot):
     """A panel for each of the best models: the truth in ink, the model in its colour over it."""
 
-    narrowest = 36.0
-    shows_pictures = True
+    narrowest: ClassVar[float] = 36.0
+    shows_pictures: ClassVar[bool] = True
 
     def tabulate(
         self, bundle: Bundle, results: TaskResults, metrics: Sequence[str]

@@ -9,7 +9,7 @@ from multiprocessing import forkserver, resource_tracker
 from multiprocessing.context import ForkServerContext, ForkServerProcess
 from multiprocessing.process import BaseProcess, current_process
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from mocapbench.basics.system.starting import (
     ONE_THREAD,
@@ -39,7 +39,7 @@ class _Process(ForkServerProcess):
 class ForkedContext(ForkServerContext):
     """The context of processes that read the script which starts them."""
 
-    Process = _Process
+    Process: ClassVar[type[ForkServerProcess]] = _Process
 
 
 class _ProcessWithoutScript(_Process):
@@ -54,7 +54,7 @@ class _ProcessWithoutScript(_Process):
 class ForkedContextWithoutScript(ForkServerContext):
     """The context of processes that do not read it."""
 
-    Process = _ProcessWithoutScript
+    Process: ClassVar[type[ForkServerProcess]] = _ProcessWithoutScript
 
 
 def ask_server(preload: Sequence[str], folder: Path) -> None:

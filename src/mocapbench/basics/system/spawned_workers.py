@@ -7,7 +7,7 @@ from multiprocessing import resource_tracker
 from multiprocessing.context import SpawnContext, SpawnProcess
 from multiprocessing.process import BaseProcess
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from mocapbench.basics.system.starting import (
     ONE_THREAD,
@@ -35,7 +35,7 @@ class _Process(SpawnProcess):
 class SpawnedContext(SpawnContext):
     """The context of processes that read the script which starts them."""
 
-    Process = _Process
+    Process: ClassVar[type[SpawnProcess]] = _Process
 
 
 class _ProcessWithoutScript(_Process):
@@ -50,7 +50,7 @@ class _ProcessWithoutScript(_Process):
 class SpawnedContextWithoutScript(SpawnContext):
     """The context of processes that do not read it."""
 
-    Process = _ProcessWithoutScript
+    Process: ClassVar[type[SpawnProcess]] = _ProcessWithoutScript
 
 
 def keep_files_in(folder: Path) -> None:
