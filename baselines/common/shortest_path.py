@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["cheapest_path"]
+__all__ = ["cheapest_path", "cheapest_path_among"]
 
 _ROWS = 64
 
@@ -38,7 +38,36 @@ def cheapest_path(
         best = np.concatenate([(block + cost).argmin(axis=1) for block in blocks])
         cost = cost[best] + transition[best, states] + here
         before.append(best)
-    # Back from the cheapest last state.
+    return _go_back(cost, before)
+
+
+def cheapest_path_among(
+    emission: NDArray[np.float64], transition: NDArray[np.float64]
+) -> NDArray[np.intp]:
+    """Return the cheapest path where the states that may be taken differ from time to time.
+
+    Parameters
+    ----------
+    emission : ndarray of shape (T, W)
+        The cost of each of W states at each time.
+    transition : ndarray of shape (T - 1, W, W)
+        The cost of going from a state at a time (row) to a state at the next (column).
+
+    Returns
+    -------
+    ndarray of int, shape (T,)
+        Which of the W states are taken. Ties go to the first.
+    """
+    cost, before = emission[0], []
+    for jumps, here in zip(transition, emission[1:], strict=True):
+        reached = cost[:, None] + jumps
+        before.append(reached.argmin(axis=0))
+        cost = reached.min(axis=0) + here
+    return _go_back(cost, before)
+
+
+def _go_back(cost: NDArray[np.float64], before: list[NDArray[np.intp]]) -> NDArray[np.intp]:
+    """Return the path to the cheapest last state, given which state is best before each."""
     path = [int(cost.argmin())]
     for best in reversed(before):
         path.append(int(best[path[-1]]))

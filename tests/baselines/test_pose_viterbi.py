@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from samples import recording
 
+from mocapbench.baselines import pose_viterbi
 from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 
@@ -99,3 +100,64 @@ def test_the_states_of_a_frame_pass_through_it():
     one, four = (PoseViterbi(steps=steps).fit([train]) for steps in (1, 4))
     np.testing.assert_allclose(four.frames_[::4], one.frames_, atol=1e-12)
     np.testing.assert_allclose(four.transition_[::4, ::4], one.transition_, atol=1e-9)
+
+
+def dense_costs(model, given):
+    """Return the costs of all states at all times, and of all jumps between them."""
+    emission = np.zeros((len(given.times), len(model.frames_)))
+    seen = given.visible.all(axis=1)
+    apart = given.values[seen][:, None] - model.frames_
+    emission[seen] = (apart**2).sum(axis=2)
+    transition = np.full((len(model.frames_),) * 2, np.inf)
+    for state in range(len(model.frames_) - model.steps):
+        if model.last_[state] == model.last_[state + model.steps]:
+            jumps = model.frames_[state + model.steps] - model.frames_
+            transition[state] = model.smoothness * (jumps**2).sum(axis=1)
+    return emission, transition
+
+
+@pytest.fixture
+def frames_first(monkeypatch):
+    """Have any number of states count as too many to search all."""
+    monkeypatch.setattr(pose_viterbi, "_SEARCHED", 0)
+
+
+def draw_walk(seed, n_frames):
+    return np.random.default_rng(seed).standard_normal((n_frames, 3)).cumsum(axis=0)
+
+
+def cost(model, given_, poses):
+    """Return what a path costs through states that have these poses."""
+    taken = (np.abs(poses[:, None] - model.frames_).sum(axis=2)).argmin(axis=1)
+    seen = given_.visible.all(axis=1)
+    after = np.minimum(taken + model.steps, model.last_[taken])
+    jumps = model.frames_[after[:-1]] - model.frames_[taken[1:]]
+    assert (taken[:-1] + model.steps <= model.last_[taken[:-1]]).all()
+    return ((given_.values - poses)[seen] ** 2).sum() + model.smoothness * (jumps**2).sum()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_path_near_that_through_frames_is_no_dearer_and_none_is_cheaper_than_the_best(
+    seed, monkeypatch
+):
+    train, new = recording("train", draw_walk(seed, 12)), recording("new", draw_walk(seed + 99, 9))
+    given_ = new.hide(np.repeat((np.arange(9) // 3 == 1)[:, None], 3, axis=1))
+    best = PoseViterbi(1.0, steps=4).fit([train])
+    through_frames = PoseViterbi(1.0).fit([train]).match(given_)
+    monkeypatch.setattr(pose_viterbi, "_SEARCHED", 0)
+    near = PoseViterbi(1.0, steps=4).fit([train])
+    costs = [
+        cost(best, given_, p) for p in (best.match(given_), near.match(given_), through_frames)
+    ]
+    assert costs == sorted(costs)
+
+
+@pytest.mark.usefixtures("frames_first")
+@pytest.mark.parametrize("seed", range(8))
+def test_where_all_states_are_near_frames_first_changes_nothing(seed, monkeypatch):
+    train, new = recording("train", draw_walk(seed, 2)), recording("new", draw_walk(seed + 99, 7))
+    given_ = new.hide(np.repeat((np.arange(7) // 3 == 1)[:, None], 3, axis=1))
+    near = PoseViterbi(1.0, steps=4).fit([train]).match(given_)
+    monkeypatch.undo()
+    best = PoseViterbi(1.0, steps=4).fit([train]).match(given_)
+    np.testing.assert_allclose(near, best, atol=1e-9)
