@@ -162,7 +162,7 @@ def _carry_through(
 ) -> Array | None:
     """Return where others carry a marker through a gap (T, 3); None if they are too few."""
     edges = [frame for frame in (gap[0] - 1, gap[-1] + 1) if 0 <= frame < len(times)]
-    beside = places[np.union1d(gap, edges)]
+    beside = places[[*gap, *edges]]
     others = np.flatnonzero(~np.isnan(beside).any(axis=(0, 2)) & (weights > 0.0))
     if len(others) < FEWEST or not edges:
         return None

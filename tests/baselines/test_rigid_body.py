@@ -97,6 +97,14 @@ def test_with_fewer_than_three_others_each_channel_is_interpolated(hidden):
     np.testing.assert_array_equal(filled(loose(0), hidden), curve.mean)
 
 
+def test_a_marker_that_is_never_seen_beside_the_others_is_where_it_was_in_training():
+    learnt = recording(tumbling(1))
+    given = recording(tumbling(2)).hide(gap(0, N_FRAMES, 4))
+    (found,) = RigidBody().fit([learnt]).impute([given])
+    (curve,) = PchipImputer().fit([learnt]).impute([given])
+    np.testing.assert_array_equal(found.mean, curve.mean)
+
+
 def test_channels_that_are_no_markers_are_interpolated():
     values = np.sin(np.arange(27.0)).reshape(9, 3)
     angles = Recording("angles", np.arange(9.0), values, ("a", "b", "c"), ("deg",) * 3)
