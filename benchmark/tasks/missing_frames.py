@@ -139,7 +139,7 @@ missing_frames: Task = Task(
         ),
         "quick": Profile(
             (*(case.name for case in _CASES if "three" in case.name), "synthetic 1"),
-            # Each window begins one frame after the last: a third of them says nearly as much.
+            # Each window begins one frame after the last; `paper` has them all.
             folds=N_WINDOWS // 3,
             budget={"n_restarts": 1, "max_iter": 10, "refine_iter": 3, "fill_iter": 20},
             opt_in=(
