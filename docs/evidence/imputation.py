@@ -14,23 +14,18 @@ who are in no training, which choose nothing.
 
 from __future__ import annotations
 
-import csv
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import product
-from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import sem
-from scipy.stats import t as student
 
 from mocapbench import benchmark as bench
-from mocapbench import datasets
 from mocapbench.baselines import ChannelKriging, FrameImputer, MakimaImputer, PoseKriging
 from mocapbench.baselines.kriging import held_out_stretches
 from mocapbench.benchmark import METRICS, TASKS, Address, ImputeProblem, Seeds
@@ -46,8 +41,16 @@ from mocapbench.benchmark.tasks.missing_frames import (
     hide_window,
 )
 from mocapbench.benchmark.testing.facing import rotate_motion
-from mocapbench.datasets import Recording, RecordingUnavailable, gpdm_features, one_based_frames
+from mocapbench.datasets import (
+    Recording,
+    RecordingUnavailable,
+    gpdm_features,
+    one_based_frames,
+    read_people,
+    subject_of,
+)
 from mocapbench.metrics import Imputation, coverage_95, rms_per_frame
+from mocapbench.metrics.statistics import mean_interval
 
 Array = NDArray[np.float64]
 
@@ -210,17 +213,18 @@ def others() -> None:
     print("greatest ratio:", np.max(walks[:, 0] / walks[:, -1]).round(3))
     errors, of_makima = np.array([np.mean(of, axis=0)[[0, -1]] for of in scores.values()]).T
     for what, each in {"ours": errors, "makima less ours": of_makima - errors}.items():
-        half = student.ppf(0.975, len(each) - 1) * sem(each)
-        print(f"{what}, {len(each)} people: {each.mean():.1f} ± {half:.1f}")
+        low, high = mean_interval(each)
+        print(f"{what}, {len(each)} people: {each.mean():.1f} ± {(high - low) / 2:.1f}")
 
 
 def _walks_of_others() -> Iterator[tuple[str, str]]:
     """Yield the person and the address of all walks of people whom `missing-frames` lacks."""
-    known = {uri.removeprefix("cmu:")[:2] for uri in (*TRAINING, *TESTS)}
-    listed = Path(datasets.__file__).with_name("people.tsv").read_text(encoding="utf-8")
-    for subject, number, person, *_, shows in csv.reader(listed.splitlines(), delimiter="\t"):
-        if "walk" in shows and person not in known:
-            yield person, f"cmu:{subject}_{number}"
+    people = read_people()
+    known = {subject_of(uri) for uri in (*TRAINING, *(f"cmu:{test}" for test in TESTS))}
+    for uri in people.recordings:
+        person = people.person(subject_of(uri))
+        if "walk" in people.shows(uri) and person not in known:
+            yield person, uri
 
 
 def _posed_anywhere(uri: str, training: tuple[Recording, ...]) -> Iterator[ImputeProblem]:
@@ -240,5 +244,13 @@ def _mean_scores(model: FrameImputer, problems: Sequence[ImputeProblem], *names:
     return np.array([np.mean([of(each).value for each in outcomes]) for of in metrics])
 
 
+COMMANDS: Mapping[str, Callable[[], None]] = {
+    "walkers": walkers,
+    "tasks": tasks,
+    "frames": frames,
+    "headings": headings,
+    "others": others,
+}
+
 if __name__ == "__main__":
-    globals()[sys.argv[1]]()
+    COMMANDS[sys.argv[1]]()
