@@ -102,28 +102,26 @@ def test_the_states_of_a_frame_pass_through_it():
     np.testing.assert_allclose(four.transition_[::4, ::4], one.transition_, atol=1e-9)
 
 
-def dense_costs(model, given):
-    """Return the costs of all states at all times, and of all jumps between them."""
-    emission = np.zeros((len(given.times), len(model.frames_)))
-    seen = given.visible.all(axis=1)
-    apart = given.values[seen][:, None] - model.frames_
-    emission[seen] = (apart**2).sum(axis=2)
-    transition = np.full((len(model.frames_),) * 2, np.inf)
-    for state in range(len(model.frames_) - model.steps):
-        if model.last_[state] == model.last_[state + model.steps]:
-            jumps = model.frames_[state + model.steps] - model.frames_
-            transition[state] = model.smoothness * (jumps**2).sum(axis=1)
-    return emission, transition
-
-
 @pytest.fixture
-def frames_first(monkeypatch):
-    """Have any number of states count as too many to search all."""
-    monkeypatch.setattr(pose_viterbi, "_SEARCHED", 0)
+def match_near(monkeypatch):
+    """Return a function that matches as where states are too many to search all."""
+
+    def match_near(train, given_):
+        with monkeypatch.context() as few:
+            few.setattr(pose_viterbi, "_SEARCHED", 0)
+            return PoseViterbi(1.0, steps=4).fit([train]).match(given_)
+
+    return match_near
 
 
 def draw_walk(seed, n_frames):
     return np.random.default_rng(seed).standard_normal((n_frames, 3)).cumsum(axis=0)
+
+
+def draw_gap(seed, n_frames):
+    """Return a recording whose frames 3 to 5 are hidden."""
+    hidden = np.repeat((np.arange(n_frames) // 3 == 1)[:, None], 3, axis=1)
+    return recording("new", draw_walk(seed, n_frames)).hide(hidden)
 
 
 def cost(model, given_, poses):
@@ -138,26 +136,18 @@ def cost(model, given_, poses):
 
 @pytest.mark.parametrize("seed", range(8))
 def test_a_path_near_that_through_frames_is_no_dearer_and_none_is_cheaper_than_the_best(
-    seed, monkeypatch
+    seed, match_near
 ):
-    train, new = recording("train", draw_walk(seed, 12)), recording("new", draw_walk(seed + 99, 9))
-    given_ = new.hide(np.repeat((np.arange(9) // 3 == 1)[:, None], 3, axis=1))
+    train, given_ = recording("train", draw_walk(seed, 12)), draw_gap(seed + 99, 9)
     best = PoseViterbi(1.0, steps=4).fit([train])
     through_frames = PoseViterbi(1.0).fit([train]).match(given_)
-    monkeypatch.setattr(pose_viterbi, "_SEARCHED", 0)
-    near = PoseViterbi(1.0, steps=4).fit([train])
-    costs = [
-        cost(best, given_, p) for p in (best.match(given_), near.match(given_), through_frames)
-    ]
+    matches = best.match(given_), match_near(train, given_), through_frames
+    costs = [cost(best, given_, poses) for poses in matches]
     assert costs == sorted(costs)
 
 
-@pytest.mark.usefixtures("frames_first")
 @pytest.mark.parametrize("seed", range(8))
-def test_where_all_states_are_near_frames_first_changes_nothing(seed, monkeypatch):
-    train, new = recording("train", draw_walk(seed, 2)), recording("new", draw_walk(seed + 99, 7))
-    given_ = new.hide(np.repeat((np.arange(7) // 3 == 1)[:, None], 3, axis=1))
-    near = PoseViterbi(1.0, steps=4).fit([train]).match(given_)
-    monkeypatch.undo()
+def test_where_all_states_are_near_frames_first_changes_nothing(seed, match_near):
+    train, given_ = recording("train", draw_walk(seed, 2)), draw_gap(seed + 99, 7)
     best = PoseViterbi(1.0, steps=4).fit([train]).match(given_)
-    np.testing.assert_allclose(near, best, atol=1e-9)
+    np.testing.assert_allclose(match_near(train, given_), best, atol=1e-9)
