@@ -6,6 +6,7 @@ import pytest
 from scipy import stats
 
 import mocapbench
+from mocapbench.datasets import GaitLibrary
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
@@ -149,3 +150,22 @@ def test_what_is_no_table_of_scores_is_refused(change, said):
 def test_what_cannot_be_drawn_is_said(draw, said):
     with pytest.raises(ValueError, match=said):
         draw(mocapbench.figures, make_scores())
+
+
+def test_the_course_of_gaps_is_the_mean_of_each_model_at_each_place():
+    walk = GaitLibrary().recording("01_01")
+    errors = mocapbench.evaluate_frames(walk, ["linear", "pchip"], mocapbench.Gaps(1 / 6, count=4))
+    axes = mocapbench.figures.along_gap(errors)
+    places = (np.arange(20) + 0.5) / 20
+    for model, own in errors.groupby("model"):
+        courses = own["value"].to_numpy().reshape(4, 20)  # as many frames as places
+        expected = np.column_stack([places, courses.mean(axis=0)])
+        drawn = [line.get_xydata() for line in axes.get_lines()]
+        assert any(one.shape == (20, 2) and np.allclose(one, expected) for one in drawn), model
+
+
+def test_gaps_of_seven_frames_have_no_course():
+    walk = GaitLibrary().recording("01_01")
+    errors = mocapbench.evaluate_frames(walk, ["linear"], mocapbench.Gaps(7 / 120, count=2))
+    with pytest.raises(ValueError, match="gaps of eight frames or more"):
+        mocapbench.figures.along_gap(errors)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from mocapbench.baselines import Prediction
 from mocapbench.benchmark.errors import UnknownNameError
@@ -28,11 +30,12 @@ from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.evaluate import score_by
 from mocapbench.datasets import Recording
 from mocapbench.datasets.formats.strays import list_measured
-from mocapbench.metrics import Imputation
+from mocapbench.metrics import Imputation, Score
 
-__all__ = ["evaluate"]
+__all__ = ["evaluate", "evaluate_frames"]
 
 _HALF_A_SECOND = Gaps(seconds=0.5)
+_UNDEFINED = Score(np.nan)
 
 
 def evaluate(
@@ -87,6 +90,7 @@ def evaluate(
 
     See Also
     --------
+    evaluate_frames : The same, frame by frame.
     compare : Says which differences of scores are more than chance.
 
     Examples
@@ -99,7 +103,91 @@ def evaluate(
     'pchip'
     """
     names = _check_metrics(metrics)
+    arguments = {"effort": effort, "seed": seed, "jobs": jobs}
+    scores = _fill_and_score(
+        partial(_score_gap, metrics=names), (recordings, train, options), models, hide, arguments
+    )
+    defined = scores["value"].notna().groupby(scores["metric"]).transform("any")
+    return scores[defined | bool(metrics)].reset_index(drop=True)
+
+
+def evaluate_frames(
+    recordings: Any,
+    models: Sequence[ModelLike] | Mapping[str, ModelLike] = (BEST,),
+    hide: Gaps = _HALF_A_SECOND,
+    *,
+    metric: str = "rms_per_frame",
+    train: Sequence[Any] = (),
+    effort: str = "normal",
+    seed: int = 0,
+    jobs: int | None = None,
+    **options: Any,
+) -> pd.DataFrame:
+    """Score models frame by frame in gaps that are hidden from them, as `evaluate` does by gap.
+
+    Parameters
+    ----------
+    recordings : sequence
+        What `read` takes, or one of it.
+    models : sequence of model, or mapping of str to model
+        What `fill` takes as a model, perhaps with a name of yours for each.
+    hide : Gaps
+        What is hidden.
+    metric : str
+        Name of a metric that is defined for frames.
+    train : sequence
+        Recordings to learn from besides.
+    effort : str
+        See `fill`.
+    seed : int
+        See `fill`.
+    jobs : int or None
+        See `fill`.
+    **options
+        For `read`.
+
+    Returns
+    -------
+    DataFrame
+        The columns of `evaluate`, a row for each hidden frame, with its ``time`` in seconds.
+
+    Raises
+    ------
+    ValueError
+        If a recording has no room for the gaps, a model does not fill them, or the metric is not
+        defined for frames.
+
+    Examples
+    --------
+    >>> import mocapbench
+    >>> from mocapbench.datasets import GaitLibrary
+    >>> walk = GaitLibrary().recording("01_01")
+    >>> errors = mocapbench.evaluate_frames(walk, ["linear"], mocapbench.Gaps(0.5, count=1))
+    >>> len(errors)
+    60
+    """
+    _check_metrics([metric])
+    arguments = {"effort": effort, "seed": seed, "jobs": jobs}
+    score = partial(_score_frames, metric=metric)
+    errors = _fill_and_score(score, (recordings, train, options), models, hide, arguments)
+    if errors.empty:
+        raise ValueError(f"{metric} is not defined for the frames of these gaps")
+    return errors
+
+
+def _fill_and_score(
+    score: Callable[[Imputation, NDArray[np.float64]], Iterator[Mapping[str, Any]]],
+    inputs: tuple[Any, Sequence[Any], Mapping[str, Any]],
+    models: Sequence[ModelLike] | Mapping[str, ModelLike],
+    hide: Gaps,
+    arguments: Mapping[str, Any],
+) -> pd.DataFrame:
+    """Return the rows that ``score`` makes of each gap as each model fills it.
+
+    ``inputs`` are recordings, others to learn from, and how to read both.
+    """
     named = dict(models) if isinstance(models, Mapping) else _name_models(models)
+    recordings, train, options = inputs
     given = [read(one, **options) for one in _list_recordings(recordings)]
     others = [read(one, **options) for one in train]
     rows: list[Mapping[str, Any]] = []
@@ -108,13 +196,10 @@ def evaluate(
         gaps = hide.place(measured)
         learn = [one for one in others if one is not recording]
         for label, model in named.items():
-            arguments = {"effort": effort, "seed": seed, "jobs": jobs}
             filled = _fill_hidden(measured, gaps, learn, model, arguments)
-            scored = _score_gaps(measured, gaps, filled, names)
+            scored = _score_gaps(measured, gaps, filled, score)
             rows.extend({"recording": name, "model": label, **row} for row in scored)
-    scores = pd.DataFrame(rows)
-    defined = scores["value"].notna().groupby(scores["metric"]).transform("any")
-    return scores[defined | bool(metrics)].reset_index(drop=True)
+    return pd.DataFrame(rows)
 
 
 def _check_metrics(metrics: Sequence[str]) -> Sequence[str]:
@@ -182,9 +267,12 @@ def _fill_hidden(
 
 
 def _score_gaps(
-    recording: Recording, gaps: Sequence[Gap], filled: FilledRecording, metrics: Sequence[str]
+    recording: Recording,
+    gaps: Sequence[Gap],
+    filled: FilledRecording,
+    score: Callable[[Imputation, NDArray[np.float64]], Iterator[Mapping[str, Any]]],
 ) -> Iterator[dict[str, Any]]:
-    """Yield the scores of each gap."""
+    """Yield the rows of each gap."""
     shape = recording.values.shape
     problem = ImputeProblem.of_one(recording, mask_gaps(gaps, shape), filled.request.train)
     variance = np.full(shape, np.nan)
@@ -201,15 +289,32 @@ def _score_gaps(
             "start": float(recording.times[gap.start]),
             "hidden": ", ".join(dict.fromkeys(owners[channel] for channel in gap.channels)),
         }
-        for metric in metrics:
-            yield {**about, "metric": metric, "value": _score(metric, in_gap)}
+        yield from ({**about, **row} for row in score(in_gap, recording.times))
 
 
-def _score(metric: str, outcome: Imputation) -> float:
+def _score_gap(
+    outcome: Imputation, times: NDArray[np.float64], metrics: Sequence[str]
+) -> Iterator[dict[str, Any]]:
+    """Yield the score by each metric."""
+    del times
+    for metric in metrics:
+        yield {"metric": metric, "value": float(_score(metric, outcome).value)}
+
+
+def _score_frames(
+    outcome: Imputation, times: NDArray[np.float64], metric: str
+) -> Iterator[dict[str, Any]]:
+    """Yield the score of each hidden frame; none where the metric has none."""
+    by_frame = _score(metric, outcome).parts.get("frame", np.empty(0))
+    for time, value in zip(times, by_frame, strict=bool(len(by_frame))):
+        if np.isfinite(value):
+            yield {"metric": metric, "time": float(time), "value": float(value)}
+
+
+def _score(metric: str, outcome: Imputation) -> Score:
     """Return a score, NaN where the metric is not defined or fails."""
     try:
-        scores = score_by(METRICS.get(metric), outcome)
+        return score_by(METRICS.get(metric), outcome).get(metric, _UNDEFINED)
     except (RuntimeError, ValueError) as error:
         warnings.warn(str(error), RuntimeWarning, stacklevel=2)
-        return np.nan
-    return float(scores[metric].value) if scores else np.nan
+        return _UNDEFINED

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from mocapbench.benchmark.results.bundle import metric_info
-from mocapbench.reports import Bundle, CaseLayout, TaskLayout, TaskPage
+from mocapbench.benchmark.results.error_parts import along_gap
+from mocapbench.reports import Bundle, CaseLayout, ErrorParts, TaskLayout, TaskPage
 
-__all__ = ["UNITS", "bundle_scores", "require_columns"]
+__all__ = ["UNITS", "bundle_frames", "bundle_scores", "require_columns"]
 
 UNITS: Mapping[str, tuple[str, ...]] = {
     "gap": ("recording", "position"),
@@ -50,6 +54,32 @@ def bundle_scores(scores: pd.DataFrame, by: str = "gap", column: str = "") -> Bu
     layout = _lay_out(rows, by, column)
     metrics = {name: metric_info(name) for name in dict.fromkeys(rows["metric"])}
     return Bundle(rows, _tabulate_jobs(rows), (layout,), metrics, {})
+
+
+def bundle_frames(errors: pd.DataFrame) -> Bundle:
+    """Return errors by frame as a bundle, with the mean of each gap and its errors along it.
+
+    Parameters
+    ----------
+    errors : DataFrame
+        What `mocapbench.evaluate_frames` returns.
+
+    Raises
+    ------
+    ValueError
+        If a column is lacking, or there is no error.
+    """
+    require_columns(errors, [*_PROBLEM, "model", "metric", "time", "value"])
+    of_gap = [*_PROBLEM, "model", "metric"]
+    bundle = bundle_scores(errors.groupby(of_gap, sort=False)["value"].mean().reset_index())
+    courses: dict[tuple[str, str, str], list[NDArray[np.float32]]] = defaultdict(list)
+    for name, own in errors.groupby(of_gap, sort=False):
+        seen = own.sort_values("time")["value"].to_numpy(float)
+        # Frames beside the gap, which tell where it begins and ends.
+        courses[_TASK, "", str(name[3])].extend(along_gap(np.pad(seen, 1, constant_values=np.nan)))
+    along = {cell: np.stack(found) for cell, found in courses.items() if found}
+    parts = ErrorParts({_TASK: str(errors["metric"].iloc[0])}, along)
+    return replace(bundle, parts=parts)
 
 
 def require_columns(scores: pd.DataFrame, names: Sequence[str]) -> None:

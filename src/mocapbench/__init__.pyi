@@ -1,5 +1,5 @@
 from . import baselines, basics, benchmark, datasets, figures, metrics, reports
-from .benchmark.in_memory.evaluation import evaluate
+from .benchmark.in_memory.evaluation import evaluate, evaluate_frames
 from .benchmark.in_memory.filled import Filled
 from .benchmark.in_memory.gap_filler import GapFiller
 from .benchmark.in_memory.gap_filling import fill
@@ -21,6 +21,7 @@ __all__ = [
     "compare",
     "datasets",
     "evaluate",
+    "evaluate_frames",
     "figures",
     "fill",
     "metrics",

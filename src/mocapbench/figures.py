@@ -15,13 +15,17 @@ from numpy.typing import NDArray
 from mocapbench import reports
 from mocapbench.benchmark.errors import UnknownNameError
 from mocapbench.benchmark.in_memory.extras import require_extra
-from mocapbench.benchmark.results.evaluated_gaps import bundle_scores, require_columns
+from mocapbench.benchmark.results.evaluated_gaps import (
+    bundle_frames,
+    bundle_scores,
+    require_columns,
+)
 from mocapbench.reports import Bundle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["along", "by_recording", "calibration", "cost", "error_bars", "ranks"]
+__all__ = ["along", "along_gap", "by_recording", "calibration", "cost", "error_bars", "ranks"]
 
 
 def error_bars(
@@ -127,6 +131,32 @@ def along(
     require_extra("seaborn", "figures", "figures")
     plot = reports.AlongColumn(column, column)
     return _draw_plot(plot, bundle_scores(scores, by, column), metric, ax)[0]
+
+
+def along_gap(errors: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
+    """Draw the mean error of each model along the gaps, from their first frame to their last.
+
+    Parameters
+    ----------
+    errors : DataFrame
+        What `mocapbench.evaluate_frames` returns, of gaps of eight frames or more.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Examples
+    --------
+    >>> import mocapbench, mocapbench.figures
+    >>> from mocapbench.datasets import GaitLibrary
+    >>> walk = GaitLibrary().recording("01_01")
+    >>> errors = mocapbench.evaluate_frames(walk, ["linear"])
+    >>> mocapbench.figures.along_gap(errors).get_xlabel()
+    'position in the gap'
+    """
+    return _draw("along-gap", bundle_frames(errors), "", ax)[0]
 
 
 def calibration(scores: pd.DataFrame, *, ax: Axes | None = None) -> Axes:

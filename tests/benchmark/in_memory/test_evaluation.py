@@ -70,6 +70,23 @@ def test_a_score_is_that_of_the_metric_in_the_gap_alone(walk):
         assert found == pytest.approx(mse(outcome).value)
 
 
+def test_errors_of_frames_have_the_score_of_the_gap_as_their_mean(walk):
+    models = ["linear", "pchip"]
+    frames = mocapbench.evaluate_frames(walk(), models, HIDE)
+    scores = mocapbench.evaluate(walk(), models, HIDE, metrics=["rms_per_frame"])
+    of_gap = ["recording", "gap", "model", "metric", "position", "start", "hidden"]
+    means = frames.groupby(of_gap)["value"].mean()
+    np.testing.assert_allclose(means[scores[of_gap].itertuples(index=False)], scores["value"])
+    for gap, own in frames[frames["model"] == "pchip"].groupby("gap"):
+        placed = HIDE.place(walk())[gap - 1]
+        np.testing.assert_array_equal(own["time"], walk().times[placed.start : placed.stop])
+
+
+def test_a_metric_without_frames_is_refused(walk):
+    with pytest.raises(ValueError, match="smse is not defined for the frames of these gaps"):
+        mocapbench.evaluate_frames(walk(), "linear", HIDE, metric="smse")
+
+
 def test_no_model_sees_what_is_hidden(walk):
     Looks.seen.clear()
     mocapbench.evaluate(walk(), [Looks()], HIDE)
