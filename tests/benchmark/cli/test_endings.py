@@ -139,6 +139,19 @@ def test_streams_may_be_closed(folder, arguments):
     assert code == (ExitCode.USAGE if "--nonsense" in arguments else ExitCode.OK)
 
 
+NARROW = """
+import sys
+for stream in (sys.stdout, sys.stderr):
+    stream.reconfigure(encoding="cp1252", errors="strict")
+"""
+
+
+@every_command
+def test_what_a_console_of_windows_cannot_show_ends_no_command(folder, arguments):
+    code, _ = _ended(arguments, folder, before=NARROW, errors="replace")
+    assert code == (ExitCode.USAGE if "--nonsense" in arguments else ExitCode.OK)
+
+
 STRIKING = """
 import io, os, sys
 class Striking(io.TextIOWrapper):
