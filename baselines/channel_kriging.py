@@ -49,10 +49,10 @@ class ChannelKriging(Imputer, Inductive):
     recordings differ, and γ the variance of a drift over time. A visible channel counts the more,
     the larger its coefficients in a ridge regression of the hidden ones on all visible ones.
 
-    The six parameters are those that best predict gaps that are held out of what is visible, as
-    long as those to fill. These gaps say, too, how far variances are right. The process is
-    conditioned on the frames of all recordings, those of the recording to fill included; of more
-    than 3000, on those of others that are most like the frames to fill.
+    The process is conditioned on the frames of all recordings, those of the recording to fill
+    included; of those of others, on the 1000 that are most like the frames to fill. The six
+    parameters are those that best predict gaps that are held out of these, as long as those to
+    fill. Such gaps say, too, how far variances are right.
     Markers are seen from the body: their path, and which way each recording faces, are taken out
     before, as far as three of them are visible throughout the recording to fill.
     Channels hidden in the same frames are filled together, with parameters of their own; where
@@ -162,6 +162,7 @@ def _moments(
     )
     shown = values[np.ix_(known, channels)]
     spread = np.nanmean(values[:, channels] ** 2, axis=0)
-    process = learn_channel_process(given, shown, spread, own, duration)
     near = choose_near(given, sought, own)
-    return predict_channels(given.at(near), shown[near], sought, *process)
+    given, shown = given.at(near), shown[near]
+    process = learn_channel_process(given, shown, spread, own, duration)
+    return predict_channels(given, shown, sought, *process)

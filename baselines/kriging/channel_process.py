@@ -21,6 +21,7 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
+import pandas as pd
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.extmath import row_norms
 
@@ -29,6 +30,7 @@ from mocapbench.baselines.kriging.held_out_stretches import (
     DescribedFrames,
     HeldOutStretches,
     add_noise,
+    choose_evenly,
     choose_from_both,
     learn_parameters,
     noise_variance,
@@ -51,12 +53,14 @@ TYPICAL: Array = np.log([1.0, 0.25, 0.3, 0.3, 8.0, 0.2])
 """Medians of the priors: of ℓ, √β, √α, √γ, τ in frames, and √ε."""
 _LEARNT = 150
 """Frames of the recording to fill, and of all others, from which parameters are learnt: about."""
-_CONDITIONED = 3000
-"""Frames to predict from, or those of the recording to fill if these are more.
+_OTHERS = 1000
+"""Frames of other recordings to learn and to predict from.
 
-A core factors their covariance in about half a second. A hundred recordings have five times as
-many, would take a hundred times as long, and err as much.
+Three thousand take two to three times as long, and err more where they are of strangers
+(`docs/evidence/channels.py strangers`).
 """
+_ASKING = 100
+"""Frames to fill that choose them."""
 _ROWS = 256
 """Of a covariance, computed at once."""
 _SUPPOSED = 2.0
@@ -178,7 +182,10 @@ def learn_channel_process(
 
 
 def choose_near(frames: DescribedFrames, wanted: DescribedFrames, own: int) -> Index:
-    """Return the frames of a recording, and of others those most like any that is wanted.
+    """Return the frames of a recording, and of others those most like the ones that are wanted.
+
+    The others are the nearest of each frame that is wanted, then the second nearest, and so on, so
+    that what is rare among those wanted has its own too.
 
     Parameters
     ----------
@@ -189,15 +196,16 @@ def choose_near(frames: DescribedFrames, wanted: DescribedFrames, own: int) -> I
     Returns
     -------
     ndarray of int
-        Places in ``frames``, in ascending order: at most `_CONDITIONED`, or all of the recording.
+        Places in ``frames``, in ascending order: all of the recording, `_OTHERS` of others at most.
     """
-    if len(frames.times) <= _CONDITIONED:
-        return np.arange(len(frames.times))
-    apart = euclidean_distances(wanted.description, frames.description, squared=True).min(axis=0)
     mine = frames.recording == own
-    apart[mine] = -1.0
-    most = max(_CONDITIONED, int(mine.sum()))
-    return np.sort(np.argsort(apart, kind="stable")[:most])
+    others = np.flatnonzero(~mine)
+    if len(others) > _OTHERS:
+        asking = wanted.at(choose_evenly(wanted.recording, _ASKING)).description
+        apart = euclidean_distances(asking, frames.at(others).description, squared=True)
+        nearest = np.argsort(apart, axis=1, kind="stable")
+        others = others[pd.unique(nearest.T.ravel())[:_OTHERS]]
+    return np.sort(np.concatenate([np.flatnonzero(mine), others]))
 
 
 def predict_channels(
