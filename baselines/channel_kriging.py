@@ -15,11 +15,11 @@ from mocapbench.baselines.common.checks import check_given, check_recordings, po
 from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.kriging.channel_process import (
-    choose_near,
+    OTHERS,
     learn_channel_process,
     predict_channels,
 )
-from mocapbench.baselines.kriging.held_out_stretches import DescribedFrames
+from mocapbench.baselines.kriging.described_frames import DescribedFrames, choose_near
 from mocapbench.baselines.kriging.stacked import (
     describe_by_channels,
     stack_frames,
@@ -162,7 +162,7 @@ def _moments(
     )
     shown = values[np.ix_(known, channels)]
     spread = np.nanmean(values[:, channels] ** 2, axis=0)
-    near = choose_near(given, sought, own)
+    near = choose_near(given, sought, own, OTHERS)
     given, shown = given.at(near), shown[near]
     process = learn_channel_process(given, shown, spread, own, duration)
     return predict_channels(given, shown, sought, *process)

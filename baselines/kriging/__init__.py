@@ -9,6 +9,7 @@ Whole frames:
 
 Processes whose parameters best predict what is held out:
 
+* `described_frames`: frames by what is seen in each, and which of them count;
 * `held_out_stretches`: errors in frames that are held out, and the search for the parameters;
 * `stacked`: the frames of several recordings, and which channels say most of others;
   `channel_process`: the process of channels that others show; `stances`: where markers stand and

@@ -21,28 +21,24 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-import pandas as pd
-from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.extmath import row_norms
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
+from mocapbench.baselines.kriging.described_frames import DescribedFrames, choose_from_both
 from mocapbench.baselines.kriging.held_out_stretches import (
-    DescribedFrames,
     HeldOutStretches,
     add_noise,
-    choose_evenly,
-    choose_from_both,
     learn_parameters,
     noise_variance,
     predict_frames,
     stretch_numbers,
 )
-from mocapbench.basics.arrays import Array, Index
+from mocapbench.basics.arrays import Array
 
 __all__ = [
+    "OTHERS",
     "TYPICAL",
     "ChannelPairs",
-    "choose_near",
     "learn_channel_process",
     "predict_channels",
     "prior_variances",
@@ -53,14 +49,12 @@ TYPICAL: Array = np.log([1.0, 0.25, 0.3, 0.3, 8.0, 0.2])
 """Medians of the priors: of ℓ, √β, √α, √γ, τ in frames, and √ε."""
 _LEARNT = 150
 """Frames of the recording to fill, and of all others, from which parameters are learnt: about."""
-_OTHERS = 1000
+OTHERS = 1000
 """Frames of other recordings to learn and to predict from.
 
 Three thousand take two to three times as long, and err more where they are of strangers
 (`docs/evidence/channels.py strangers`).
 """
-_ASKING = 100
-"""Frames to fill that choose them."""
 _ROWS = 256
 """Of a covariance, computed at once."""
 _SUPPOSED = 2.0
@@ -179,33 +173,6 @@ def learn_channel_process(
     ratios = squares * HeldOutStretches(add_noise(pairs, found), values, stretch).scales
     supposed = _SUPPOSED * spread / prior_variances(frames, found).mean()
     return found, np.maximum(ratios + supposed / n_gaps, _LEAST)
-
-
-def choose_near(frames: DescribedFrames, wanted: DescribedFrames, own: int) -> Index:
-    """Return the frames of a recording, and of others those most like the ones that are wanted.
-
-    The others are the nearest of each frame that is wanted, then the second nearest, and so on, so
-    that what is rare among those wanted has its own too.
-
-    Parameters
-    ----------
-    frames, wanted : DescribedFrames
-    own : int
-        The number of the recording.
-
-    Returns
-    -------
-    ndarray of int
-        Places in ``frames``, in ascending order: all of the recording, `_OTHERS` of others at most.
-    """
-    mine = frames.recording == own
-    others = np.flatnonzero(~mine)
-    if len(others) > _OTHERS:
-        asking = wanted.at(choose_evenly(wanted.recording, _ASKING)).description
-        apart = euclidean_distances(asking, frames.at(others).description, squared=True)
-        nearest = np.argsort(apart, axis=1, kind="stable")
-        others = others[pd.unique(nearest.T.ravel())[:_OTHERS]]
-    return np.sort(np.concatenate([np.flatnonzero(mine), others]))
 
 
 def predict_channels(

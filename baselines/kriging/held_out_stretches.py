@@ -33,12 +33,9 @@ from mocapbench.baselines.common.cholesky import decompose, invert
 from mocapbench.basics.arrays import Array, Index
 
 __all__ = [
-    "DescribedFrames",
     "HeldOutStretches",
     "Pairs",
     "add_noise",
-    "choose_evenly",
-    "choose_from_both",
     "learn_parameters",
     "noise_variance",
     "predict_frames",
@@ -54,29 +51,6 @@ _FEWEST_STRETCHES = 4
 """Stretches that are held out are shorter than the gap to fill where there would be fewer."""
 _JITTER = 1e-6
 _TINY = float(np.finfo(np.float64).tiny)
-
-
-@dataclass(frozen=True, eq=False)
-class DescribedFrames:
-    """Frames of several recordings, by what is seen in each.
-
-    Parameters
-    ----------
-    description : ndarray of shape (n, F)
-        φ, with a mean square of 1, summed over F; zero where nothing describes frames.
-    times : ndarray of shape (n,)
-        In frames or in seconds, within each recording.
-    recording : ndarray of int, shape (n,)
-        The number of its recording.
-    """
-
-    description: Array
-    times: NDArray[np.float64 | np.intp]
-    recording: Index
-
-    def at(self, which: Index | slice) -> DescribedFrames:
-        """Return some of the frames."""
-        return DescribedFrames(self.description[which], self.times[which], self.recording[which])
 
 
 class Pairs(Protocol):
@@ -306,44 +280,3 @@ def stretch_numbers(
     number = since // max(min(duration, total / _FEWEST_STRETCHES), np.finfo(np.float64).tiny)
     _, stretch = np.unique(np.column_stack([recording, number]), axis=0, return_inverse=True)
     return np.asarray(stretch.ravel())
-
-
-def choose_evenly(recording: Index, most: int) -> Index:
-    """Return the places of about so many of n frames, spread evenly over each recording.
-
-    Each recording gives its share of them, rounded up, so that the order of recordings means
-    nothing, and none is left out.
-
-    Parameters
-    ----------
-    recording : ndarray of int, shape (n,)
-        The number of each frame's recording.
-    most : int
-    """
-    n_frames = len(recording)
-    parts = [np.flatnonzero(recording == number) for number in np.unique(recording)]
-    shares = [-(-min(most, n_frames) * len(part) // n_frames) for part in parts]
-    chosen = [_spread(part, number) for part, number in zip(parts, shares, strict=True)]
-    return np.concatenate([np.zeros(0, dtype=np.intp), *chosen])
-
-
-def _spread(places: Index, number: int) -> Index:
-    """Return so many of the places: both ends and others between them, or the middle one."""
-    if number == 1:
-        return np.asarray(places[[len(places) // 2]])
-    return np.asarray(places[np.linspace(0, len(places) - 1, number).round().astype(int)])
-
-
-def choose_from_both(recording: Index, own: int, most: int) -> Index:
-    """Return about so many frames of a recording, and as many of all others, spread evenly.
-
-    Parameters
-    ----------
-    recording : ndarray of int, shape (n,)
-        The number of each frame's recording.
-    own : int
-        The number of the recording.
-    most : int
-    """
-    sides = [np.flatnonzero((recording == own) == mine) for mine in (True, False)]
-    return np.concatenate([side[choose_evenly(recording[side], most)] for side in sides])

@@ -26,8 +26,8 @@ from scipy.spatial.distance import cdist
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
 from mocapbench.baselines.kriging.conditioned import student_variance
+from mocapbench.baselines.kriging.described_frames import DescribedFrames
 from mocapbench.baselines.kriging.held_out_stretches import (
-    DescribedFrames,
     HeldOutStretches,
     add_noise,
     learn_parameters,

@@ -9,7 +9,7 @@ import numpy as np
 from sklearn.linear_model import Ridge
 
 from mocapbench.baselines.common.recordings import interpolate_channels, stack
-from mocapbench.baselines.kriging.held_out_stretches import DescribedFrames
+from mocapbench.baselines.kriging.described_frames import DescribedFrames
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from mocapbench import benchmark as bench
 from mocapbench.baselines import ChannelKriging, FrameImputer, MakimaImputer, PoseKriging
-from mocapbench.baselines.kriging import held_out_stretches
+from mocapbench.baselines.kriging import described_frames
 from mocapbench.benchmark import METRICS, TASKS, Address, ImputeProblem, Seeds
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.tasks.missing_frames import (
@@ -163,7 +163,7 @@ def frames() -> None:
         rows = []
         for seed in range(8):
             shift = np.random.default_rng(seed)
-            with patch.object(held_out_stretches, "_spread", partial(_spread_anew, shift)):
+            with patch.object(described_frames, "_spread", partial(_spread_anew, shift)):
                 outcome = _outcome(problem, ChannelKriging().fit(problem.train))
             names = ("rms_angle", "cumulative_scaled_error")
             rows.append([METRICS.get(name)(outcome).value for name in names])

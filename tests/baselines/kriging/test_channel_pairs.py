@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.baselines.kriging.channel_process import ChannelPairs, prior_variances
-from mocapbench.baselines.kriging.held_out_stretches import DescribedFrames
+from mocapbench.baselines.kriging.described_frames import DescribedFrames
 
 seeds = st.integers(0, 2**16)
 

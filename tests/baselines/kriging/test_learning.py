@@ -2,12 +2,14 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.kriging.channel_process import TYPICAL, ChannelPairs
-from mocapbench.baselines.kriging.held_out_stretches import (
+from mocapbench.baselines.kriging.described_frames import (
     DescribedFrames,
-    HeldOutStretches,
-    add_noise,
     choose_evenly,
     choose_from_both,
+)
+from mocapbench.baselines.kriging.held_out_stretches import (
+    HeldOutStretches,
+    add_noise,
     learn_parameters,
     stretch_numbers,
 )

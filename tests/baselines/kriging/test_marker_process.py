@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.kriging.held_out_stretches import DescribedFrames
+from mocapbench.baselines.kriging.described_frames import DescribedFrames
 from mocapbench.baselines.kriging.marker_process import (
     FramePairs,
     learn_marker_process,
