@@ -45,6 +45,8 @@ def put_on():
         for name in names:
             delattr(module, name)
         module.__class__ = Look
+    if hasattr(os, "process_cpu_count"):  # Python 3.13 has it, and asks on Linux what is hidden
+        os.process_cpu_count = os.cpu_count
     find = builtins.__import__
 
     def find_as_windows(name, *rest, **named):
