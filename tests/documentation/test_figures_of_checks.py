@@ -1,6 +1,8 @@
-"""What the documentation says of how much a check compares is about what it compares."""
+"""What the documentation says of reference values is about what they are."""
 
+import csv
 import re
+from collections import defaultdict
 from pathlib import Path
 
 import pytest
@@ -16,3 +18,42 @@ def test_the_page_on_checks_knows_how_many_metrics_there_are(profile):
     page = " ".join((ROOT / "docs/ci.md").read_text(encoding="utf-8").split())
     (said,) = re.findall(rf"about ([\d,]+)(?: metrics)? in {profile}\b", page)
     assert int(said.replace(",", "")) == pytest.approx(len(rows), rel=0.05)
+
+
+TASKS = {
+    "`missing-frames`": "missing-frames",
+    "`golf-swings`": "golf-swings",
+    "subject 35": "subject-35-missing",
+    "upper bodies": "upper-body-missing",
+    "walks": "walking-interpolation",
+    "`marker-gaps`": "marker-gaps",
+}
+ENTRANTS = {"gpdm": "gpdm-balanced-6d-viterbi-offset"}
+
+
+def read_coverage():
+    """Return the mean coverage of 95 % by entrant and task, of recordings."""
+    found = defaultdict(list)
+    for path in (ROOT / "tests/goldens/metrics/quick").glob("*.csv"):
+        with path.open(encoding="utf-8", newline="") as file:
+            for task, _, case, entrant, metric, *folds in csv.reader(
+                line for line in file if not line.startswith(("#", "task,"))
+            ):
+                if metric == "coverage_95" and not case.startswith("synthetic"):
+                    found[entrant, task] += [float(fold) for fold in folds if fold]
+    return {key: sum(values) / len(values) for key, values in found.items()}
+
+
+def test_the_table_of_coverage_is_that_of_quick():
+    page = (ROOT / "docs/results/calibration.md").read_text(encoding="utf-8")
+    head, _, *rows = re.search(r"(?:^\|.*\n)+", page, re.MULTILINE)[0].splitlines()
+    tasks = [TASKS[cell.strip()] for cell in head.split("|")[2:-1]]
+    coverage = read_coverage()
+    for row in rows:
+        names, *cells = row.split("|")[1:-1]
+        entrants = [ENTRANTS.get(name, name) for name in re.findall("`(.+?)`", names)]
+        for task, cell in zip(tasks, cells, strict=True):
+            numbers = re.findall(r"(\*?)(\.\d+)", cell)
+            for entrant, (outside, number) in zip(entrants, numbers, strict=bool(numbers)):
+                assert float(number) == pytest.approx(coverage[entrant, task], abs=6e-4), row
+                assert bool(outside) == (not 0.93 <= float(number) <= 0.97), row
