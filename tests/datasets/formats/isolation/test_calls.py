@@ -65,6 +65,7 @@ def test_what_goes_wrong_is_said_and_the_next_call_works(called, name, limits, c
     assert called("double", "a")["twice"] == "aa"
 
 
+@pytest.mark.forks  # the portable backend looks now and then, and misses what is soon over
 def test_enough_memory_is_enough_also_after_too_little(called):
     with pytest.raises(IsolatedCallError):
         called("eat", memory=2**20)
