@@ -181,7 +181,6 @@ def test_a_process_forked_from_the_maker_keeps_it(tmp_path):
         sweep(tmp_path)
 
 
-@pytest.mark.forks
 @pytest.mark.forks  # the portable backend leaves an empty lock
 def test_git_takes_nothing_of_what_was_left(tmp_path):
     folder = lay_out(tmp_path / "folder")
