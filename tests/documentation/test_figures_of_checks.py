@@ -1,11 +1,12 @@
 """What the documentation says of reference values is about what they are."""
 
-import csv
 import re
 from collections import defaultdict
 from pathlib import Path
 
 import pytest
+
+from mocapbench.benchmark.gate import read_reference
 
 ROOT = Path(__file__).parents[2]
 
@@ -34,13 +35,10 @@ ENTRANTS = {"gpdm": "gpdm-balanced-6d-viterbi-offset"}
 def read_coverage():
     """Return the mean coverage of 95 % by entrant and task, of recordings."""
     found = defaultdict(list)
-    for path in (ROOT / "tests/goldens/metrics/quick").glob("*.csv"):
-        with path.open(encoding="utf-8", newline="") as file:
-            for task, _, case, entrant, metric, *folds in csv.reader(
-                line for line in file if not line.startswith(("#", "task,"))
-            ):
-                if metric == "coverage_95" and not case.startswith("synthetic"):
-                    found[entrant, task] += [float(fold) for fold in folds if fold]
+    reference = read_reference(ROOT / "tests/goldens/metrics/quick")
+    for (address, metric), folds in reference.values.items():
+        if metric == "coverage_95" and not address.case.startswith("synthetic"):
+            found[address.label, address.task] += folds.values()
     return {key: sum(values) / len(values) for key, values in found.items()}
 
 
