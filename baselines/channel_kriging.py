@@ -14,11 +14,7 @@ import numpy as np
 from mocapbench.baselines.common.checks import check_given, check_recordings, pool
 from mocapbench.baselines.common.recordings import by_content
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.kriging.channel_process import (
-    OTHERS,
-    learn_channel_process,
-    predict_channels,
-)
+from mocapbench.baselines.kriging.channel_process import learn_channel_process, predict_channels
 from mocapbench.baselines.kriging.described_frames import DescribedFrames, choose_near
 from mocapbench.baselines.kriging.stacked import (
     describe_by_channels,
@@ -32,6 +28,13 @@ from mocapbench.basics.mask_runs import hidden_together, runs
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["ChannelKriging"]
+
+_OTHERS = 1000
+"""Frames of other recordings to learn and to predict from.
+
+Three thousand take two to three times as long, and err more where they are of strangers
+(`docs/evidence/channels.py strangers`).
+"""
 
 
 class ChannelKriging(Imputer, Inductive):
@@ -162,7 +165,7 @@ def _moments(
     )
     shown = values[np.ix_(known, channels)]
     spread = np.nanmean(values[:, channels] ** 2, axis=0)
-    near = choose_near(given, sought, own, OTHERS)
+    near = choose_near(given, sought, own, _OTHERS)
     given, shown = given.at(near), shown[near]
     process = learn_channel_process(given, shown, spread, own, duration)
     return predict_channels(given, shown, sought, *process)

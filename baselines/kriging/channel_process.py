@@ -36,7 +36,6 @@ from mocapbench.baselines.kriging.held_out_stretches import (
 from mocapbench.basics.arrays import Array
 
 __all__ = [
-    "OTHERS",
     "TYPICAL",
     "ChannelPairs",
     "learn_channel_process",
@@ -49,12 +48,6 @@ TYPICAL: Array = np.log([1.0, 0.25, 0.3, 0.3, 8.0, 0.2])
 """Medians of the priors: of ℓ, √β, √α, √γ, τ in frames, and √ε."""
 _LEARNT = 150
 """Frames of the recording to fill, and of all others, from which parameters are learnt: about."""
-OTHERS = 1000
-"""Frames of other recordings to learn and to predict from.
-
-Three thousand take two to three times as long, and err more where they are of strangers
-(`docs/evidence/channels.py strangers`).
-"""
 _ROWS = 256
 """Of a covariance, computed at once."""
 _SUPPOSED = 2.0

@@ -108,7 +108,7 @@ CHANGES: Mapping[str, Change] = {
 
 NEAR: Mapping[str, Change] = {
     "as it is": {},
-    **{f"{n} frames of others": {f"{MODEL}.OTHERS": n} for n in (300, 3000)},
+    **{f"{n} frames of others": {f"{MODEL}._OTHERS": n} for n in (300, 3000)},
 }
 
 
