@@ -33,7 +33,8 @@ _TYPICAL = Path(__file__).with_name("typical_seconds.csv")
 
 def alike(address: Address) -> tuple[tuple[str, ...], ...]:
     """Return among what jobs to look for alike ones, the most alike first."""
-    return (address.task, address.label), (address.label,), ()
+    task, _, case, _, label = address
+    return (task, label, case), (task, label), (label,), ()
 
 
 def of_records(records: Iterable[Record]) -> Durations:

@@ -20,7 +20,8 @@ from mocapbench.benchmark.runs.record import Record, Status
 
 __all__ = ["in_words", "watch"]
 
-_PLAIN_INTERVAL = 5.0
+_PLAIN_INTERVAL, _BAR_INTERVAL = 5.0, 1.0
+"""Seconds between estimates of the time left, which take a while in a run of many jobs."""
 
 
 def watch(
@@ -54,15 +55,18 @@ def _bar(
         TextColumn("about {task.fields[left]} left"),
     )
     counts: Counter[Status] = Counter()
+    left, due = "…", time.monotonic()
     with Progress(*columns, console=console) as progress:
-        bar = progress.add_task("jobs", total=total, failed=0, left="…")
+        bar = progress.add_task("jobs", total=total, failed=0, left=left)
         for outcome in outcomes:
             counts[outcome.record.status] += 1
+            if time.monotonic() >= due or counts.total() == total:
+                left, due = in_words(time_left()), time.monotonic() + _BAR_INTERVAL
             progress.update(
                 bar,
                 advance=1,
                 failed=_broken(counts),
-                left=in_words(time_left()),
+                left=left,
                 description=str(outcome.record.address),
             )
             _announce(outcome.record, console)

@@ -70,7 +70,8 @@ def run(
     finished |= {job.key: _record_missing(job, store, config, log) for job in missing}
     todo = [job for job in todo if not job.missing]
     if todo:  # or no worker starts
-        for record in _compute_records(todo, store, config, backend, console, log=log, posed=posed):
+        queue = JobQueue(todo, finished.values())
+        for record in _compute(queue, store, config, backend, console, log=log, posed=posed):
             finished[record.key] = record
     return [finished[job.key] for job in jobs]
 
@@ -83,8 +84,8 @@ def _record_missing(job: Job, store: RunDirectory, config: WorkerConfig, log: Ev
     return record
 
 
-def _compute_records(
-    jobs: Sequence[Job],
+def _compute(
+    queue: JobQueue,
     store: RunDirectory,
     config: WorkerConfig,
     backend: Backend,
@@ -94,7 +95,7 @@ def _compute_records(
     posed: PosedProblems,
 ) -> Iterator[Record]:
     """Yield the record of each job as it ends, once it is in the store."""
-    archive, queue = archive_at(*config.folders), JobQueue(jobs)
+    archive = archive_at(*config.folders)
     with scratch_folder() as folder:
         spool, models = Spool(folder), TrainedModels(folder)
 
@@ -108,7 +109,7 @@ def _compute_records(
 
         outcomes = map(partial(_check_outcome, posed), execute(queue, work, config, spool, backend))
         seconds_left = partial(queue.time_left, backend.n_workers)
-        for outcome in watch(outcomes, len(jobs), seconds_left, console):
+        for outcome in watch(outcomes, queue.n_jobs, seconds_left, console):
             _save_outcome(outcome, store, models)
             _log_end(log, outcome.record, outcome.seconds)
             yield outcome.record

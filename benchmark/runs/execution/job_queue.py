@@ -4,51 +4,75 @@ from __future__ import annotations
 
 import time
 from collections import Counter, defaultdict, deque
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from functools import partial
 
 from mocapbench.benchmark.runs.execution.durations import Durations
 from mocapbench.benchmark.runs.job import Job
+from mocapbench.benchmark.runs.record import Record, Status
 
 __all__ = ["JobQueue"]
 
 
-_Kind = tuple[str, str, str]
-"""Jobs that are expected to take equally long: their task, their label, and what is to be done."""
+_Entrant = tuple[str, str]
+"""A task, and the label of one of its entrants."""
+
+_Kind = tuple[_Entrant, str, str]
+"""Jobs that are expected to take equally long: an entrant, its case, and what is to be done."""
 
 _FIT, _PREDICT, _SCORE = "fit", "predict", "score"
 
+_MANY = 20
+"""Jobs of a case beside which one that is tried out of order costs little."""
 
-def _kind(job: Job, left: str) -> _Kind:
-    return job.address.task, job.address.label, left
+
+def _entrant(job: Job | Record) -> _Entrant:
+    return job.address.task, job.address.label
+
+
+def _kind(job: Job | Record, left: str) -> _Kind:
+    return _entrant(job), job.address.case, left
+
+
+def _list_of_entrant(kind: _Kind) -> tuple[Hashable, ...]:
+    entrant, _, left = kind
+    return kind, (entrant, left)
 
 
 def _list_alike(kind: _Kind) -> tuple[Hashable, ...]:
     """Return among what jobs to look for alike ones, the most alike first."""
-    _, label, left = kind
-    return kind, (label, left), left, ()
+    (_, label), _, left = kind
+    return *_list_of_entrant(kind), (label, left), left, ()
 
 
 class JobQueue:
     """Jobs in an order that keeps all workers busy to the end.
 
-    One job of each entrant and task goes first, to learn how long they take; then those of the
-    slowest entrants. Of jobs that share their predictions only one waits at first, since the
-    others can score what it predicts; of those that share a fitted model only one, too.
+    First goes one job of each entrant and task, and of each case that has many jobs, to learn how
+    long they take; then those of the slowest cases. Of jobs that share their predictions only one
+    waits at first, since the others can score what it predicts; of those that share a fitted model
+    only one, too.
 
     Parameters
     ----------
     jobs : iterable of Job
+    finished : iterable of Record, optional
+        Of jobs that ended before, and tell how long others take.
     """
 
-    def __init__(self, jobs: Iterable[Job]) -> None:
+    def __init__(self, jobs: Iterable[Job], finished: Iterable[Record] = ()) -> None:
         self._waiting: dict[_Kind, deque[Job]] = defaultdict(deque)
         self._followers: dict[str, list[Job]] = defaultdict(list)
         self._following: Counter[_Kind] = Counter()
         self._leads: dict[str, Job] = {}
         self._running: dict[str, tuple[_Kind, float]] = {}
-        self._untried: deque[_Kind] = deque()
         self._durations = Durations()
+        self._expected: dict[_Kind, float] = {}
+        self._kinds: dict[_Entrant, dict[_Kind, None]] = defaultdict(dict)
+        self.n_jobs = 0
+        """How many jobs there are to do."""
         for job in jobs:
+            self.n_jobs += 1
             shared = [key for key in (job.fit_key, job.training_key) if key in self._leads]
             for key in {job.fit_key, job.training_key} - {"", *shared}:
                 self._leads[key] = job
@@ -56,6 +80,8 @@ class JobQueue:
                 self._hold(shared[0], job)
             else:
                 self._append(job, _FIT)
+        self._learn_from(finished)
+        self._untried = deque(self._list_untried())
 
     def _hold(self, key: str, job: Job) -> None:
         self._followers[key].append(job)
@@ -72,33 +98,62 @@ class JobQueue:
         self._following.subtract(self._after(key, job) for job in followers)
         return followers
 
+    def _learn_from(self, finished: Iterable[Record]) -> None:
+        """Learn from records how long jobs take that fit a model."""
+        for record in finished:
+            if record.status is Status.OK:
+                seconds = (record.fit_seconds or 0.0) + (record.predict_seconds or 0.0)
+                self._durations.learn(_list_alike(_kind(record, _FIT)), seconds)
+        for entrant in self._kinds:
+            self._expect_anew(entrant)
+
+    def _list_untried(self) -> Iterator[_Kind]:
+        """Yield what to try first: of each entrant the middle, as first cases are often small."""
+        for entrant, kinds in self._kinds.items():
+            waiting = [kind for kind in kinds for _ in self._waiting.get(kind, ())]
+            if waiting and not self._durations.knows([(entrant, _FIT)]):
+                yield waiting[len(waiting) // 2]
+        for kind, jobs in self._waiting.items():
+            if len(jobs) >= _MANY and not self._durations.knows([kind]):
+                yield kind
+
     def _append(self, job: Job, left: str) -> None:
         kind = _kind(job, left)
-        if kind not in self._waiting:
-            self._untried.append(kind)
         self._waiting[kind].append(job)
+        self._kinds[_entrant(job)][kind] = None
+
+    def _append_freed(self, job: Job, left: str) -> None:
+        """Have a job wait that could not start before; the first of an entrant is tried next."""
+        if not any(kind[2] == left for kind in self._kinds[_entrant(job)]):
+            self._untried.append(_kind(job, left))
+        self._append(job, left)
 
     def take(self) -> Job | None:
         """Return the job to start next; None if none can start now."""
-        is_first, kind = bool(self._untried), self._next_kind()
-        if kind is None:
+        if not self._waiting:
             return None
-        job = self._pick_typical(kind) if is_first else self._waiting[kind].popleft()
+        kind, position = self._pick_untried() or (self._find_slowest(), 0)
+        jobs = self._waiting[kind]
+        job = jobs[position]
+        del jobs[position]
+        if not jobs:
+            del self._waiting[kind]
         self._running[job.key] = (kind, time.monotonic())
         return job
 
-    def _pick_typical(self, kind: _Kind) -> Job:
-        """Return a job from the middle of its kind: the first cases of a task are often small."""
-        waiting = self._waiting[kind]
-        job = waiting[len(waiting) // 2]
-        del waiting[len(waiting) // 2]
-        return job
+    def _pick_untried(self) -> tuple[_Kind, int] | None:
+        """Return where a job waits of a kind to be tried; None if there is none."""
+        while self._untried:
+            kind = self._untried.popleft()
+            if kind in self._waiting:
+                return kind, len(self._waiting[kind]) // 2
+        return None
 
-    def _next_kind(self) -> _Kind | None:
-        if self._untried:
-            return self._untried.popleft()
-        waiting = [kind for kind, jobs in self._waiting.items() if jobs]
-        return max(waiting, key=self._expect_seconds, default=None)
+    def _find_slowest(self) -> _Kind:
+        so_far = self._time_running()
+        slowest = max(self._waiting, key=lambda kind: self._expected.get(kind, 0.0))
+        also_running = (kind for kind in so_far if kind in self._waiting)
+        return max([slowest, *also_running], key=partial(self._expect_seconds, so_far))
 
     def finish(self, job: Job, seconds: float, *, rescored: bool = False) -> None:
         """Take note that a job that was taken has ended after so many seconds.
@@ -112,8 +167,9 @@ class JobQueue:
         """
         kind, _ = self._running.pop(job.key)
         self._durations.learn(_list_alike(kind), seconds)
+        self._expect_anew(_entrant(job))
         for follower in self._free_jobs(job.fit_key):
-            self._append(follower, _SCORE)
+            self._append_freed(follower, _SCORE)
         if self._leads.get(job.training_key) is job:
             self._release(job.training_key, fitted=not rescored)
 
@@ -122,7 +178,7 @@ class JobQueue:
         followers = self._free_jobs(training_key)
         if fitted or not followers:
             for follower in followers:
-                self._append(follower, _PREDICT)
+                self._append_freed(follower, _PREDICT)
             return
         lead, *others = followers
         self._leads[training_key] = lead
@@ -130,29 +186,44 @@ class JobQueue:
         for other in others:
             self._hold(training_key, other)
 
-    def _expect_seconds(self, kind: _Kind) -> float:
-        """Return how long a job takes.
+    def _time_running(self) -> dict[_Kind, float]:
+        """Return how long the jobs that run have taken so far, the longest of each kind."""
+        now, longest = time.monotonic(), dict[_Kind, float]()
+        for kind, began in self._running.values():
+            longest[kind] = max(now - began, longest.get(kind, 0.0))
+        return longest
 
-        No less than jobs of its kind that run have taken so far; nor longer than to fit its model,
-        as far as no other tells how long it takes to predict or score alone.
+    def _expect_anew(self, entrant: _Entrant) -> None:
+        """Keep how long the jobs of an entrant take, as far as others of it tell."""
+        for kind in self._kinds[entrant]:
+            if self._durations.knows(_list_of_entrant(kind)):
+                self._expected[kind] = self._estimate_seconds(kind)
+
+    def _expect_seconds(self, so_far: Mapping[_Kind, float], kind: _Kind) -> float:
+        """Return how long a job takes; no less than those of its kind that run have so far."""
+        known = self._expected.get(kind)
+        expected = self._estimate_seconds(kind) if known is None else known
+        return max(expected, so_far.get(kind, 0.0))
+
+    def _estimate_seconds(self, kind: _Kind) -> float:
+        """Return how long a job takes, by those most alike.
+
+        No longer than to fit its model, as far as no other tells how long it takes to predict or
+        score alone.
         """
-        now, fit = time.monotonic(), (*kind[:2], _FIT)
         expected = self._durations.expect_seconds(_list_alike(kind))
-        if not self._durations.knows([kind]) and self._durations.knows([fit]):
-            expected = min(expected, self._durations.expect_seconds([fit]))
-        so_far = (now - began for running, began in self._running.values() if running == kind)
-        return max(expected, *so_far, 0.0)
+        own, fit = _list_of_entrant(kind), _list_of_entrant((*kind[:2], _FIT))
+        if not self._durations.knows(own) and self._durations.knows(fit):
+            return min(expected, self._durations.expect_seconds(fit))
+        return expected
 
     def time_left(self, n_workers: int) -> float:
         """Return about how many seconds it takes until all jobs have ended."""
-        now = time.monotonic()
-        running = [
-            max(self._expect_seconds(kind) - (now - started), 0.0)
-            for kind, started in self._running.values()
-        ]
+        now, expect = time.monotonic(), partial(self._expect_seconds, self._time_running())
+        running = [max(expect(kind) - (now - began), 0.0) for kind, began in self._running.values()]
         counts = Counter({kind: len(jobs) for kind, jobs in self._waiting.items()})
         counts.update(self._following)
-        waiting = [(self._expect_seconds(kind), count) for kind, count in counts.items()]
+        waiting = [(expect(kind), count) for kind, count in counts.items() if count]
         work = sum(running) + sum(seconds * count for seconds, count in waiting)
-        longest = max([*running, *(seconds for seconds, count in waiting if count)], default=0.0)
+        longest = max([*running, *(seconds for seconds, _ in waiting)], default=0.0)
         return max(work / n_workers, longest)

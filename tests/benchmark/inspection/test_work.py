@@ -21,6 +21,8 @@ def record(address, fit, predict):
 def test_records_tell_the_mean_of_their_entrant_in_their_task_or_elsewhere():
     known = of_records([record(ONE, 1.0, 1.0), record(ONE._replace(fold=1), 4.0, None)])
     assert known.expect_seconds(alike(ONE._replace(case="test 2"))) == 3.0
+    more = of_records([record(ONE, 1.0, 1.0), record(ONE._replace(case="test 2"), 8.0, 0.0)])
+    assert more.expect_seconds(alike(ONE._replace(case="test 2"))) == 8.0
     assert known.expect_seconds(alike(ONE._replace(task="another"))) == 3.0
     assert not known.knows(alike(ONE._replace(label="moa-3"))[:2])
 

@@ -8,11 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.runs.execution.job_queue import JobQueue
+from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.tasks.address import Address
 
 
-def _job(number, label="a", fit_key="", training_key=""):
-    address = Address("task", 1, "case", number, label)
+def _job(number, label="a", fit_key="", training_key="", case="case"):
+    address = Address("task", 1, case, number, label)
     fit_key = fit_key or f"fit {number}"
     return SimpleNamespace(
         key=str(number), fit_key=fit_key, training_key=training_key, address=address
@@ -75,6 +76,52 @@ def test_once_each_entrant_is_known_the_slowest_go_first():
         queue.finish(job, seconds)
     assert [queue.take().address.label for _ in range(4)] == ["b", "c", "c", "a"]
     assert queue.take() is None
+
+
+def test_cases_take_different_times(monkeypatch):
+    """A case of which no job has ended is expected to take what others of its entrant do."""
+    monkeypatch.setattr(time, "monotonic", lambda: 0.0)
+    cases = ["long", "long", "short", "short", "short"]
+    queue = JobQueue([_job(n, case=case) for n, case in enumerate(cases)])
+    first = queue.take()  # from the middle
+    assert first.address.case == "short"
+    queue.finish(first, 1.0)
+    assert queue.time_left(1) == pytest.approx(4 * 1)
+    second = queue.take()
+    assert second.address.case == "long"
+    queue.finish(second, 100.0)
+    assert queue.time_left(1) == pytest.approx(100 + 2 * 1)
+    assert [queue.take().address.case for _ in range(3)] == ["long", "short", "short"]
+
+
+def test_cases_of_many_jobs_are_tried_first(monkeypatch):
+    """So that the time left is right before all of the slowest have ended."""
+    monkeypatch.setattr(time, "monotonic", lambda: 0.0)
+    seconds = {"x": 1.0, "y": 10.0, "z": 5.0}
+    queue = JobQueue([_job(n, case=case) for n, case in enumerate("xyz" * 30)])
+    first = [queue.take() for _ in range(4)]
+    assert {job.address.case for job in first} == set(seconds)
+    for job in first:
+        queue.finish(job, seconds[job.address.case])
+    left = queue.time_left(1)
+    whole = 30 * sum(seconds.values()) - sum(seconds[job.address.case] for job in first)
+    assert left == pytest.approx(whole)
+
+
+def test_a_run_that_goes_on_knows_how_long_jobs_took_before(monkeypatch):
+    monkeypatch.setattr(time, "monotonic", lambda: 0.0)
+    before = [
+        SimpleNamespace(
+            address=Address("task", 1, "case", 9, label),
+            status=status,
+            fit_seconds=seconds - 1,
+            predict_seconds=1,
+        )
+        for label, status, seconds in [("a", Status.OK, 3), ("b", Status.OK, 7), ("b", "failed", 1)]
+    ]
+    queue = JobQueue([_job(n, label) for n, label in enumerate("ababc")], before)
+    assert queue.time_left(1) == pytest.approx(2 * 3 + 2 * 7 + 5)  # c: the mean of all
+    assert [queue.take().address.label for _ in range(5)] == ["c", "b", "b", "a", "a"]
 
 
 def test_the_time_left_follows_from_the_jobs_most_alike(monkeypatch):
