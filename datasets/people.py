@@ -70,10 +70,13 @@ class People:
         table = csv.reader(text.splitlines(), delimiter="\t", quoting=csv.QUOTE_NONE)
         heads = next(table, [])
         if tuple(heads) != _COLUMNS:
-            raise self._fault(1, f"the heads {', '.join(_COLUMNS)}", heads, "write them with tabs")
+            expected, got = f"the heads {', '.join(_COLUMNS)}", ", ".join(heads)
+            raise self._fault(1, expected, got, "write them with tabs between")
         for line, cells in enumerate(table, start=2):
-            self._add(line, cells)
+            if any(cells):
+                self._add(line, cells)
         self._require_tests()
+        self._require_persons()
         self._folds = self._split_persons()
         self._strangers = self._order_strangers()
 
@@ -122,6 +125,14 @@ class People:
     def _require_tests(self) -> None:
         if not self.subjects:
             raise FormatError(self.file, "recordings in the role test", "none", "name some")
+
+    def _require_persons(self) -> None:
+        """Refuse a person who is no subject of the list, as a misspelt one would be."""
+        for uri, row in self._rows.items():
+            if row["person"] not in self._by_subject:
+                expected, got = "a subject of this list as the person", row["person"]
+                advice = f"write {row['subject']}, or another subject who is the same person"
+                raise self._fault(self._lines[uri], expected, got, advice)
 
     def _fault(self, line: int, expected: str, got: object, advice: str) -> FormatError:
         return FormatError(self.file, expected, str(got) or "nothing", advice, line)
@@ -234,7 +245,7 @@ def read_people(path: str | Path | None = None) -> People:
     Raises
     ------
     FormatError
-        If it is no such table.
+        If it is no such table, or there is none.
     """
     file = Path(path) if path else Path(__file__).with_name("people.tsv")
     try:
@@ -242,6 +253,9 @@ def read_people(path: str | Path | None = None) -> People:
     except UnicodeDecodeError as error:
         expected, got = "text in UTF-8", f"the byte {error.object[error.start]:#04x}"
         raise FormatError(file.name, expected, got, "save it as UTF-8") from error
+    except OSError as error:
+        expected, got = "a list of people", str(error.strerror)
+        raise FormatError(str(file), expected, got, "give the path of a file") from error
     return People(text, file.name)
 
 

@@ -43,6 +43,18 @@ SHOWN_BY = "shown_by_"
 """What columns begin with that say which difference a number of units shows."""
 
 NO_SPREAD = "the same difference in all"
+_ADVICE = {
+    NO_SPREAD: "choose other models with --models",
+    Place.INCOMPLETE.value: (
+        "one has scores that the other lacks; `mocapbench status` tells which jobs failed, and "
+        "--models chooses other models"
+    ),
+}
+"""What to do where nothing can be planned; anywhere else there are too few people."""
+_MORE = "run more of them (`mocapbench run --folds`), or add recordings of more people"
+
+_ROUNDING = 1e-12
+"""Spreads below this share of the greatest difference are rounding."""
 
 Spread = Mapping[str, Any]
 """One row: where, of which entrants, and what was measured; NaN where nothing can be planned."""
@@ -229,7 +241,7 @@ def _describe_difference(
     )
     means = unit_means(second - first, shares)
     worth, spread = float(means.freedom) + 1.0, float(means.error) * math.sqrt(means.freedom + 1.0)
-    finding = _find_obstacle(scored.unit, shares.size, worth, spread, lost)
+    finding = _find_obstacle(scored.unit, second - first, worth, spread, lost)
     spread = math.nan if finding else spread
     low, high = deviation_interval(spread, worth - 1.0)
     return {
@@ -244,23 +256,27 @@ def _describe_difference(
     }
 
 
-def _find_obstacle(unit: str, n: int, worth: float, spread: float, lost: bool) -> str:
+def _find_obstacle(unit: str, differences: Array, worth: float, spread: float, lost: bool) -> str:
     """Return why nothing can be planned from a difference; empty where it can."""
     if lost:
         return Place.INCOMPLETE.value
     if too_few(worth - 1.0):
-        return too_few_units(n, unit)
-    return "" if spread > 0.0 else NO_SPREAD
+        return too_few_units(differences.size, unit)
+    return "" if spread > _ROUNDING * np.abs(differences).max() else NO_SPREAD
 
 
 def _explain_lack(rows: Sequence[Spread]) -> str:
     """Return why there is no spread in any row, and what to do."""
     if not rows:
-        return "power: no two models of the run have scores of the same case and metric"
-    found = ", ".join(dict.fromkeys(str(row["finding"]) for row in rows))
+        return (
+            "power: expected two models with different scores in each fold of some case, got none "
+            "in this run; choose two with --models, or another metric with --metric"
+        )
+    found = dict.fromkeys(str(row["finding"]) for row in rows)
     return (
-        f"power: expected {FEWEST_UNITS} or more people or folds with scores of two models, got: "
-        f"{found}; run more of them (`mocapbench run --folds`), or add recordings of more people"
+        f"power: expected scores of two models for {FEWEST_UNITS} or more people or folds, whose "
+        f"difference varies, got: {', '.join(found)}; "
+        + "; ".join(dict.fromkeys(_ADVICE.get(each, _MORE) for each in found))
     )
 
 

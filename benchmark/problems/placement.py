@@ -32,7 +32,7 @@ def imputed_poses(
     given : sequence of Recording
         The recordings to fill; NaN marks what is hidden.
     truth : sequence of ndarray (N, D)
-        Their complete values.
+        Their values. What is NaN here too is taken as the prediction has it, and not scored.
     predictions : sequence of Prediction
         Of which only hidden entries count.
     """
@@ -40,7 +40,9 @@ def imputed_poses(
         np.where(recording.visible, values, prediction.mean)
         for recording, values, prediction in zip(given, truth, predictions, strict=True)
     ]
-    hidden = np.concatenate([~recording.visible for recording in given])
+    known = [np.isfinite(values) for values in truth]
+    truth = [np.where(seen, *pair) for seen, *pair in zip(known, truth, means, strict=True)]
+    hidden = np.concatenate([~recording.visible for recording in given]) & np.concatenate(known)
     depends = body.dependence(given[0].channels)
     # What moves a joint and the root alike moves it not relative to the root.
     relative = depends ^ depends[0]

@@ -129,8 +129,8 @@ def people_problem(
 ) -> ImputeProblem:
     """Hide gaps of the recording of a fold.
 
-    What is hidden, and where between the ends of the recording gaps lie, depend on ``hidden`` and
-    the fold alone: rows that differ in the length of gaps or in training share them.
+    What is hidden, and where between the ends of the recording gaps lie, depend on ``hidden``, the
+    subject and the round alone: rows that differ in the length of gaps or in training share them.
 
     Parameters
     ----------
@@ -151,14 +151,15 @@ def people_problem(
         If a recording is shorter than a gap, or has no skeleton.
     """
     _, folds = _list_folds(people, regime)
-    tested, training = folds[seeds.fold % len(folds)]
+    tested, training, number = folds[seeds.fold % len(folds)]
     features, place = VALUES[values]
     recording = read_excerpt(people, tested, features, archive)
-    drawn = Seeds(seeds.root, Address("people", 1, hidden, seeds.fold)).generator("mask")
+    drawn = Seeds(seeds.root, Address("people", 1, hidden, number)).generator("mask")
     starts = _place_gaps(people, recording, round(RATE * seconds), drawn)
+    mask = _hide_gaps(recording, starts, round(RATE * seconds), HIDDEN[hidden], drawn)
     return ImputeProblem.of_one(
-        recording,
-        _hide_gaps(recording, starts, round(RATE * seconds), HIDDEN[hidden], drawn),
+        _forget_steps(recording, mask),
+        mask,
         tuple(read_excerpt(people, uri, features, archive) for uri in training),
         seen_in_fit=not training,
         body=place(archive.skeleton(tested)),
@@ -230,31 +231,45 @@ def _hide_gaps(
     return hidden
 
 
+def _forget_steps(recording: Recording, hidden: Mask) -> Recording:
+    """Return a recording without the visible frames from which the root steps into hidden ones.
+
+    The step would tell where the root is in the first frame of a gap. These frames are neither
+    shown nor asked: a model that fills whole frames takes none that is hidden in part.
+    """
+    steps = np.isin(recording.channels, ["root.dtx", "root.dty", "root.dtz"])
+    into = np.zeros((len(hidden), 1), dtype=bool)
+    into[:-1, 0] = (hidden[1:] & ~hidden[:-1])[:, steps].any(axis=1)
+    return recording.hide(into)
+
+
 @cache  # all tasks have the same
 def _list_folds(
     people: People, regime: str
-) -> tuple[tuple[str, ...], tuple[tuple[str, tuple[str, ...]], ...]]:
+) -> tuple[tuple[str, ...], tuple[tuple[str, tuple[str, ...], int], ...]]:
     """Return the persons of folds, and of each fold its recording and those to learn from.
 
-    The first recording of each subject comes first, then the second of each, and so on; a subject
-    with fewer is tested on one of them again, with other gaps.
+    Last stands its number among the folds of all subjects, as some regimes lack a subject. The
+    first recording of each subject comes first, then the second of each, and so on; a subject with
+    fewer is tested on one of them again, with other gaps.
     """
     learn = _list_regimes(people)[regime]
     learnt = {subject: learn(people, subject) for subject in people.subjects}
-    subjects = [subject for subject in learnt if learnt[subject] or learn is _learn_alone]
+    taught = [subject for subject in learnt if learnt[subject] or learn is _learn_alone]
     folds = tuple(
-        (tests[number % len(tests)], learnt[subject])
-        for number in range(N_ROUNDS)
-        for subject in subjects
+        (tests[round_ % len(tests)], learnt[subject], round_ * len(learnt) + position)
+        for round_ in range(N_ROUNDS)
+        for position, subject in enumerate(learnt)
+        if subject in taught
         for tests in [people.tests(subject)]
     )
-    return tuple(map(people.person, subjects)), folds
+    return tuple(map(people.person, taught)), folds
 
 
 def _build_case(people: People, values: str, hidden: str, seconds: float, regime: str) -> Case:
     persons, folds = _list_folds(people, regime)
     synthetic = people.library == "gait"
-    most = max(len(training) for _, training in folds)
+    most = max(len(training) for _, training, _ in folds)
     # To learn from none of others is to learn alone: where curves of others begin.
     learnt_from = "the person" if regime == "own" else "others"
     return Case(
@@ -270,35 +285,37 @@ def _build_case(people: People, values: str, hidden: str, seconds: float, regime
         {"learnt from": learnt_from, "recordings": most, "seconds": seconds},
         synthetic=synthetic,
         subjects=() if synthetic else persons,
-        given_by_fold=tuple((tested, *training) for tested, training in folds),
-        training_by_fold=tuple(" ".join(training) for _, training in folds),
+        given_by_fold=tuple((tested, *training) for tested, training, _ in folds),
+        training_by_fold=tuple(" ".join(training) for _, training, _ in folds),
     )
 
 
-def people_tasks(*lists: People) -> dict[str, Task]:
+def people_tasks(*lists: People, prefix: str = "") -> dict[str, Task]:
     """Return the tasks of lists of people, by name.
 
     Parameters
     ----------
     *lists : People
         Each has cases of its own, with the same names unless it is of generated walkers.
+    prefix : str
+        Begins the names of the tasks, which are to be others than those that are installed.
 
     Examples
     --------
-    A file that ``--plugin`` names, for a list of your own beside it:
+    A file that ``--plugin`` names, for a list of your own:
 
-    >>> from pathlib import Path
     >>> from mocapbench.benchmark import people_tasks
     >>> from mocapbench.datasets import read_people
-    >>> TASKS = people_tasks(read_people())
+    >>> TASKS = people_tasks(read_people(), prefix="our-")
     >>> sorted(TASKS)[:2]
-    ['in-betweening', 'in-betweening-angles']
+    ['our-in-betweening', 'our-in-betweening-angles']
     """
-    return {
-        f"{name}{end}": _build_task(f"{name}{end}", lists, values, hidden)
+    tasks = [
+        _build_task(f"{prefix}{name}{end}", lists, values, hidden)
         for name, hidden in NAMES.items()
         for values, end in ENDS.items()
-    }
+    ]
+    return {task.name: task for task in tasks}
 
 
 NAMES = {"lost-limb": "a limb", "lost-markers": "five joints", "in-betweening": "whole frames"}
@@ -313,11 +330,11 @@ _PAGES = {
 }
 """By values and what is hidden."""
 _ILLUSTRATED = "1 s 10 strangers"
-IN_QUICK = ("lost-limb",)
+_TASK_IN_QUICK = ("positions", "a limb")
 
 N_QUICK, N_PAPER = 12, 30
 """Folds of the profiles: people, each with one recording."""
-_IN_QUICK = {"learnt from": "others", "recordings": 10, "seconds": 1.0}
+_CASES_IN_QUICK = {"learnt from": "others", "recordings": 10, "seconds": 1.0}
 
 _SLOW = ("best-of", "cyclic-alignment", "gpdm", "gplvm", "fam", "lds")
 """Models that take longer than all others together."""
@@ -342,7 +359,7 @@ def _build_task(name: str, lists: tuple[People, ...], values: str, hidden: str) 
         cases=cases,
         meets=frozenset({"coordinates"} if values == "positions" else ()),
         max_folds=n_folds,
-        profiles=_build_profiles(name, cases, n_folds),
+        profiles=_build_profiles(cases, n_folds, in_quick=(values, hidden) == _TASK_IN_QUICK),
     )
 
 
@@ -355,15 +372,15 @@ def _is_on_a_curve(case: Case) -> bool:
     return one_second or of_person or case.columns["recordings"] in (0, 30)
 
 
-def _build_profiles(name: str, cases: tuple[Case, ...], n_folds: int) -> dict[str, Profile]:
+def _build_profiles(cases: tuple[Case, ...], n_folds: int, *, in_quick: bool) -> dict[str, Profile]:
     everything = tuple(case.name for case in cases)
-    short = tuple(case.name for case in cases if _IN_QUICK.items() <= case.columns.items())
+    short = tuple(case.name for case in cases if _CASES_IN_QUICK.items() <= case.columns.items())
     budget = {"max_iter": 10, "n_restarts": 1}
     curves = on_recordings(filter(_is_on_a_curve, cases))
     paper = Profile(curves or everything, min(N_PAPER, n_folds), {}, _SLOW)
     smoke = Profile(short[-1:] or everything[:1], 1, {"max_iter": 2, "n_restarts": 1}, _SLOW)
     quick = Profile(short or everything, min(N_QUICK, n_folds), budget, _NOT_QUICK)
-    return {"smoke": smoke, "paper": paper, **({"quick": quick} if name in IN_QUICK else {})}
+    return {"smoke": smoke, "paper": paper, **({"quick": quick} if in_quick else {})}
 
 
 _TASKS = people_tasks(read_people(), generated_people())

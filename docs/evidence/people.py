@@ -90,7 +90,7 @@ def describe_lead(
         leader = standings(half, results.layout.page.metrics[0], [case])[0].label
         within = compare(half, case, best, second).advantage
         row[name] = number(within, 2) + ("" if leader == best else f", `{leader}` best")
-        row["agrees"] = bool(row["agrees"]) and within > 0
+        row["agrees"] = bool(row["agrees"]) and leader == best
     return row
 
 

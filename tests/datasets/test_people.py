@@ -105,6 +105,11 @@ def test_every_group_leaves_about_two_thirds(people):
         (["2 1 02 120 test walk"], "line 2: expected a subject and a trial, got 2_1"),
         (["02 01 02 120 test"], "line 2: expected 6 cells, got 5"),
         (["02 01 02 120 train walk"], "list.tsv: expected recordings in the role test, got none"),
+        (
+            ["60 01 60 120 test walk", "61 01 060 120 test walk"],
+            "list.tsv, line 3: expected a subject of this list as the person, got 060; write 61, "
+            "or another subject who is the same person",
+        ),
     ],
 )
 def test_a_bad_row_is_refused_with_its_line(rows, said):
@@ -115,8 +120,25 @@ def test_a_bad_row_is_refused_with_its_line(rows, said):
 
 @pytest.mark.parametrize("text", ["", "subject,trial\n02,01"])
 def test_a_list_without_its_heads_is_refused(text):
-    with pytest.raises(FormatError, match=r"line 1: expected the heads subject, trial, person"):
+    with pytest.raises(FormatError, match=r"heads subject, trial, .*, got (nothing|subject,trial)"):
         People(text, "list.tsv")
+
+
+@pytest.mark.parametrize("person", ["", "02 "])
+def test_a_person_that_is_empty_or_has_a_blank_is_refused(person):
+    row = f"02\t01\t{person}\t120\ttest\twalk"
+    with pytest.raises(FormatError, match=r"line 2: expected a subject of this list"):
+        People(f"{HEADS}\n{row}", "list.tsv")
+
+
+def test_empty_lines_do_not_count():
+    people = People(f"{HEADS}\n\n02\t01\t02\t120\ttest\twalk\n\n", "list.tsv")
+    assert people.subjects == ("02",)
+
+
+def test_a_list_that_is_not_there_is_refused(tmp_path):
+    with pytest.raises(FormatError, match=r"none.tsv: expected a list of people, got No such file"):
+        read_people(tmp_path / "none.tsv")
 
 
 def test_a_list_that_is_no_text_is_refused(tmp_path):

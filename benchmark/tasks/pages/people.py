@@ -54,6 +54,12 @@ def _ask(values: str, hidden: str) -> Mapping[str, str]:
     }
 
 
+_STEPS = (
+    "The frame before a gap is neither shown nor asked: translations are steps, of which its own "
+    "would tell where the root is in the gap."
+)
+
+
 def _describe_page(values: str, hidden: str) -> TaskPage:
     """Return the page of a task, by the keys of `_VALUES` and `_HIDDEN`."""
     title, what, question = _HIDDEN[hidden]
@@ -74,9 +80,10 @@ def _describe_page(values: str, hidden: str) -> TaskPage:
         remarks=(
             "People are split into three groups; strangers are of the two in which a person is "
             "not. Fewer recordings of strangers are the first of more.",
-            "What is hidden, and where, depends on the fold and not on the length of gaps or on "
-            "training, so that curves compare like with like. Five frames or more stay visible at "
-            "the ends and between gaps.",
+            "What is hidden, and where, depends on the recording and not on the length of gaps or "
+            "on training, so that curves compare like with like. Five frames or more stay visible "
+            "at the ends and between gaps.",
+            *([_STEPS] if (values, hidden) == ("angles", "whole frames") else []),
             "Subjects 60 and 61 dance with each other. Statistics count them as one person.",
         ),
     )

@@ -199,17 +199,32 @@ def test_a_run_without_enough_units_says_so(cli, run):
     few = {label: values[:4] for label, values in GIVEN.items()}
     assert cli("power", run({TOY: {CASE: few}})) == 2
     assert cli.printed == (
-        "error: power: expected 5 or more people or folds with scores of two models, got: too few "
-        "to test (4 folds); run more of them (`mocapbench run --folds`), or add recordings of more "
-        "people"
+        "error: power: expected scores of two models for 5 or more people or folds, whose "
+        "difference varies, got: too few to test (4 folds); run more of them (`mocapbench run "
+        "--folds`), or add recordings of more people"
     )
 
 
 def test_a_run_of_one_model_says_so(cli, run):
     assert cli("power", run({TOY: {CASE: {"knn": GOOD}}})) == 2
     assert cli.printed == (
-        "error: power: no two models of the run have scores of the same case and metric"
+        "error: power: expected two models with different scores in each fold of some case, got "
+        "none in this run; choose two with --models, or another metric with --metric"
     )
+
+
+@pytest.mark.parametrize(
+    ("others", "finding", "advice"),
+    [
+        ([value + 0.1 for value in GOOD], "the same difference in all", "choose other models"),
+        (GOOD[:-1], "incomplete", "one has scores that the other lacks"),
+    ],
+)
+def test_what_stands_against_a_plan_of_enough_people_is_said(cli, run, others, finding, advice):
+    given = {"knn": GOOD, "nn": others}
+    assert cli("power", run({TOY: {CASE: given}}), "--models", "knn,nn") == 2
+    assert f"got: {finding}; {advice}" in cli.printed
+    assert "run more of them" not in cli.printed
 
 
 def test_a_folder_that_is_no_run_says_so(cli, tmp_path):

@@ -20,10 +20,14 @@ FAST = ("linear", "nn", "pca-regression", "low-rank", "pose-viterbi", "marker-kr
 SHORT = "lost-limb", "synthetic 0.5 s 3 strangers"
 
 
+def list_asked(problem):
+    """Return which entries are hidden and scored: (N, D)."""
+    return ~problem.given[0].visible & np.isfinite(problem.truth[0])
+
+
 def hidden_runs(problem):
     """Return the first frame and the length of each gap, in order."""
-    (given,) = problem.given
-    frames = np.flatnonzero(~given.visible.all(axis=1))
+    frames = np.flatnonzero(list_asked(problem).any(axis=1))
     ends = np.flatnonzero(np.diff(frames) > 1)
     starts = frames[np.r_[0, ends + 1]]
     return [(int(a), int(b - a + 1)) for a, b in zip(starts, frames[np.r_[ends, -1]], strict=True)]
@@ -75,6 +79,29 @@ def test_what_is_hidden_depends_on_the_fold_and_neither_on_training_nor_on_value
         for end in ("", "-angles")
     ]
     assert runs[0] == runs[1]
+
+
+def test_the_frame_before_a_gap_whose_root_steps_into_it_is_neither_shown_nor_asked(posed):
+    problem = posed("in-betweening-angles", "synthetic 0.5 s own", 2)
+    unknown = np.isnan(problem.truth[0])
+    before = [start - 1 for start, _ in hidden_runs(problem)]
+    assert unknown[before].all()
+    assert unknown.sum() == unknown[before].size
+    outcome = problem.outcome(problem.solve(MODELS.get("linear")().fit(problem.train), 0))
+    np.testing.assert_array_equal(outcome.hidden, list_asked(problem))
+    assert np.isfinite(outcome.place_joints().truth).all()
+
+
+def test_what_is_hidden_of_somebody_does_not_depend_on_whether_others_have_recordings():
+    rows = [
+        "02\t01\t02\t120\ttest\twalk",  # learns from nothing of its own
+        *(f"03\t0{t}\t03\t120\t{'train' if t > 1 else 'test'}\twalk" for t in (1, 2)),
+    ]
+    alone = pose_own_list(rows, GaitLibrary(), "0.25 s alone", fold=1)
+    own = pose_own_list(rows, GaitLibrary(), "0.25 s own", fold=0)
+    assert alone.given[0].name == own.given[0].name == "cmu:03_01"
+    np.testing.assert_array_equal(alone.given[0].visible, own.given[0].visible)
+    assert hidden_runs(pose_own_list(rows, GaitLibrary(), "0.25 s own", 1)) != hidden_runs(own)
 
 
 def test_what_is_hidden_is_a_limb_five_joints_or_all(posed):
@@ -156,7 +183,6 @@ class Perturbed(Archive):
         owners = [channel.partition(".")[0] for channel in recording.channels]
         for joint, rows in self.hidden.items():
             columns = [i for i, owner in enumerate(owners) if owner == joint]
-            columns = [i for i in columns if ".t" not in recording.channels[i]]
             values[np.ix_(rows * 4, columns)] += rng.normal(0, 20, (len(rows), len(columns)))
         return recording.with_values(values)
 
@@ -165,9 +191,9 @@ def perturb_hidden(task, case, fold):
     """Return the problem of a fold, and the same where hidden values are others."""
     one = pose(task, case, fold)
     (given,) = one.given
-    hidden = {}
+    hidden, asked = {}, list_asked(one)
     for column, channel in enumerate(given.channels):
-        rows = np.flatnonzero(~given.visible[:, column])
+        rows = np.flatnonzero(asked[:, column])
         if len(rows):
             hidden[channel.partition(".")[0]] = rows
     return one, pose(task, case, fold, Perturbed(given.name, hidden))
@@ -181,7 +207,7 @@ CLOSED = [name for name in TASK_NAMES if name != "lost-markers"]
 @pytest.mark.parametrize("regime", ["alone", "own", "3 strangers", "10 strangers"])
 def test_what_models_see_does_not_change_when_hidden_values_do(name, regime):
     one, other = perturb_hidden(TASKS.get(name), f"synthetic 0.5 s {regime}", 2)
-    assert np.abs(one.truth[0] - other.truth[0]).max() > 1
+    assert np.nanmax(np.abs(one.truth[0] - other.truth[0])) > 1
     for a, b in zip((*one.train, *one.given), (*other.train, *other.given), strict=True):
         np.testing.assert_array_equal(a.values, b.values)
 
@@ -258,10 +284,10 @@ def test_a_person_whose_files_are_absent_is_missing_and_the_others_are_not():
 HEADS = "subject\ttrial\tperson\trate\trole\tshows"
 
 
-def pose_own_list(rows, library, case="0.25 s alone"):
+def pose_own_list(rows, library, case="0.25 s alone", fold=0):
     people = People("\n".join([HEADS, *rows]), "list.tsv")
     archive = Archive({"cmu": library})
-    return pose(people_tasks(people)["lost-limb"], case, archive=archive)
+    return pose(people_tasks(people)["lost-limb"], case, fold, archive)
 
 
 class Short(GaitLibrary):
@@ -292,6 +318,17 @@ def test_a_missing_skeleton_is_named_with_its_line():
     expected = r"list.tsv, line 2: expected a recording with a skeleton, got none in cmu:02_01"
     with pytest.raises(FormatError, match=expected):
         pose_own_list(rows, WithoutSkeleton())
+
+
+def test_a_list_of_ones_own_stands_beside_the_tasks_that_are_installed(tmp_path, cli):
+    plugin = tmp_path / "plugin.py"
+    plugin.write_text(
+        "from mocapbench.benchmark import people_tasks\n"
+        "from mocapbench.datasets import read_people\n"
+        "TASKS = people_tasks(read_people(), prefix='our-')\n"
+    )
+    assert cli("list", "tasks", "--plugin", plugin) == 0
+    assert set(re.findall(r"our-[a-z-]+", cli.printed)) == {f"our-{name}" for name in TASK_NAMES}
 
 
 def test_a_list_of_few_recordings_has_no_cases_of_more_strangers_than_there_are():
