@@ -5,13 +5,23 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import inf
+from numbers import Integral, Real
+from typing import Any
 
 from mocapbench.benchmark.errors import UnregisteredNameError, UsageError
 from mocapbench.datasets import FormatError
 
-__all__ = ["name_arguments", "translate_errors"]
+__all__ = [
+    "list_given",
+    "name_arguments",
+    "require_count",
+    "require_positive",
+    "translate_errors",
+]
 
 _OPTION = re.compile(r"(?<![\w-])--([a-z][a-z-]*)")
+_FRAMES = re.compile(r"frames=, such as ([0-9]+):([0-9]+)")
 
 
 def name_arguments(text: str) -> str:
@@ -23,7 +33,29 @@ def name_arguments(text: str) -> str:
     >>> name_arguments("raise --max-gap")
     'raise max_gap='
     """
-    return _OPTION.sub(lambda found: f"{found[1].replace('-', '_')}=", text)
+    named = _OPTION.sub(lambda found: f"{found[1].replace('-', '_')}=", text)
+    return _FRAMES.sub(r"frames=, such as (\1, \2)", named)
+
+
+def require_positive(name: str, value: object, unit: str = "") -> float:
+    """Return an argument; refuse what is no finite number above 0.
+
+    Messages name the ``unit``, such as ``"in seconds, "``.
+    """
+    if not isinstance(value, bool) and isinstance(value, Real) and 0 < float(value) < inf:
+        return float(value)
+    raise ValueError(f"expected {name}= {unit}above 0, got {value!r}")
+
+
+def require_count(name: str, value: object) -> None:
+    """Refuse an argument that is no whole number of 1 or more."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < 1:
+        raise ValueError(f"expected {name}= of 1 or more, got {value!r}")
+
+
+def list_given(sources: Any) -> list[Any]:
+    """Return what an argument holds: a list or tuple of recordings, or a single one."""
+    return [*sources] if isinstance(sources, list | tuple) else [sources]
 
 
 @contextmanager

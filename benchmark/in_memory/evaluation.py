@@ -20,7 +20,7 @@ from mocapbench.benchmark.filling.gaps import Gap, mask_ends, mask_gaps
 from mocapbench.benchmark.filling.input_files import compose_request
 from mocapbench.benchmark.filling.requests.names import name_owners
 from mocapbench.benchmark.filling.requests.request import BEST, NamedEntries
-from mocapbench.benchmark.in_memory.arguments import translate_errors
+from mocapbench.benchmark.in_memory.arguments import list_given, translate_errors
 from mocapbench.benchmark.in_memory.gap_filling import solve_request
 from mocapbench.benchmark.in_memory.hidden_gaps import Gaps
 from mocapbench.benchmark.in_memory.own_models import ModelLike, name_model
@@ -189,7 +189,7 @@ def _fill_and_score(
     named = dict(models) if isinstance(models, Mapping) else _name_models(models)
     recordings, train, options = inputs
     given = [read(one, **options) for one in _list_recordings(recordings)]
-    others = [read(one, **options) for one in train]
+    others = [read(one, **options) for one in list_given(train)]
     rows: list[Mapping[str, Any]] = []
     for name, recording in zip(_name_recordings(given), given, strict=True):
         measured = _keep_measured(recording)
@@ -226,7 +226,7 @@ def _name_models(models: ModelLike | Sequence[ModelLike]) -> dict[str, ModelLike
 
 
 def _list_recordings(recordings: Any) -> Sequence[Any]:
-    listed = recordings if isinstance(recordings, list | tuple) else [recordings]
+    listed = list_given(recordings)
     if not listed:
         raise ValueError("expected one recording or more, got none")
     return listed

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 from html import escape
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -75,8 +76,9 @@ class Filled:
         low, high : ndarray of shape (N, D)
             The value itself where an entry was visible, NaN where the model has no intervals.
         """
-        if not 0.0 < level < 1.0:
-            raise ValueError(f"expected a level between 0 and 1, such as 0.95, got {level}")
+        given: object = level
+        if not isinstance(given, Real) or not 0.0 < float(given) < 1.0:
+            raise ValueError(f"expected a level between 0 and 1, such as 0.95, got {level!r}")
         half: Array = ndtri(0.5 + level / 2) * self.std
         return self.recording.values - half, self.recording.values + half
 

@@ -13,6 +13,7 @@ from sklearn.utils.validation import check_is_fitted, validate_data
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.words import join_names
 from mocapbench.benchmark.filling.requests.request import FillRequest
+from mocapbench.benchmark.in_memory.arguments import require_positive, translate_errors
 from mocapbench.benchmark.in_memory.gap_filling import solve_request
 from mocapbench.benchmark.in_memory.own_models import ModelLike, name_model, require_model
 from mocapbench.datasets import FrameByChannel, Recording
@@ -68,10 +69,13 @@ class GapFiller(OneToOneFeatureMixin, TransformerMixin, BaseEstimator):  # type:
             Of no effect.
         """
         del y
-        values = validate_data(self, X, dtype=np.float64, ensure_all_finite="allow-nan")
-        require_model(self.model)
-        if not 0 < self.rate < np.inf:
-            raise ValueError(f"expected rate= in frames per second, above 0, got {self.rate}")
+        _require_different_names(X)
+        values = validate_data(
+            self, _show_masked(X), dtype=np.float64, ensure_all_finite="allow-nan"
+        )
+        with translate_errors():
+            require_model(self.model)
+        require_positive("rate", self.rate, "in frames per second, ")
         self.learnt_: Recording = self._record("learnt", values)
         return self
 
@@ -93,7 +97,12 @@ class GapFiller(OneToOneFeatureMixin, TransformerMixin, BaseEstimator):  # type:
         """
         check_is_fitted(self)
         values: Array = validate_data(
-            self, X, reset=False, dtype=np.float64, ensure_all_finite="allow-nan", copy=True
+            self,
+            _show_masked(X),
+            reset=False,
+            dtype=np.float64,
+            ensure_all_finite="allow-nan",
+            copy=True,
         )
         if not np.isnan(values).any():
             return values
@@ -125,3 +134,16 @@ class GapFiller(OneToOneFeatureMixin, TransformerMixin, BaseEstimator):  # type:
         tags: Any = super().__sklearn_tags__()
         tags.input_tags.allow_nan = True
         return tags
+
+
+def _show_masked(X: ArrayLike) -> ArrayLike:
+    """Return an array with NaN where a mask hides entries, of which scikit-learn knows nothing."""
+    return np.ma.filled(X.astype(float), np.nan) if isinstance(X, np.ma.MaskedArray) else X
+
+
+def _require_different_names(X: object) -> None:
+    names = [*map(str, getattr(X, "columns", ()))]
+    if repeated := [name for name in names if names.count(name) > 1]:
+        raise ValueError(
+            f"expected columns of different names, got {repeated[0]!r} {len(repeated)} times"
+        )

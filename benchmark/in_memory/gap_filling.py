@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from numbers import Integral
 from typing import Any
 
 from mocapbench.benchmark.filling.choosing.choice import EFFORTS
@@ -12,7 +13,11 @@ from mocapbench.benchmark.filling.input_files import compose_request
 from mocapbench.benchmark.filling.requests.names import split_names
 from mocapbench.benchmark.filling.requests.request import BEST, FillRequest, NamedEntries
 from mocapbench.benchmark.filling.workers import Workers
-from mocapbench.benchmark.in_memory.arguments import translate_errors
+from mocapbench.benchmark.in_memory.arguments import (
+    list_given,
+    require_positive,
+    translate_errors,
+)
 from mocapbench.benchmark.in_memory.filled import Filled
 from mocapbench.benchmark.in_memory.own_models import ModelLike, lend_models, name_model
 from mocapbench.benchmark.in_memory.progress_bar import show_progress
@@ -51,7 +56,7 @@ def fill(
         `mocapbench.baselines.FrameImputer`, or an imputer of scikit-learn. Models that are named
         compute in this process, and those that are compared in others.
     train : sequence
-        Recordings to learn from besides, of whatever `read` takes.
+        Recordings to learn from besides, of whatever `read` takes; or one of them.
     frames : tuple of int, optional
         Frames [first, stop), 0-based, which are filled whether they have values or not.
     channels, leave, only : str or sequence of str, optional
@@ -90,17 +95,20 @@ def fill(
     array([0., 1., 2.])
     """
     given = read(recording, **options)
-    others = [read(one, **options) for one in train if one is not recording]
+    others = [read(one, **options) for one in list_given(train) if one is not recording]
+    _require_frames(frames)
+    if max_gap is not None:
+        require_positive("max_gap", max_gap, "in seconds, ")
     _require_choice("ends", ends, ("open", "fill"))
     _require_choice("effort", effort, EFFORTS)
     entries = NamedEntries(
         frames,
-        _split_names(channels),
+        _split_names("channels", channels),
         max_gap,
         ends == "fill",
         name_model(model),
-        _split_names(leave),
-        _split_names(only),
+        _split_names("leave", leave),
+        _split_names("only", only),
     )
     with translate_errors():
         request = compose_request(given, entries, others, getattr(given, "results", ()))
@@ -108,8 +116,19 @@ def fill(
         return Filled(given, solve_request(request, own, effort=effort, seed=seed, jobs=jobs))
 
 
-def _split_names(names: str | Sequence[str]) -> tuple[str, ...]:
-    return split_names([names] if isinstance(names, str) else names)
+def _split_names(argument: str, names: str | Sequence[str]) -> tuple[str, ...]:
+    listed = list_given(names)
+    if not all(isinstance(name, str) for name in listed):
+        raise ValueError(f"expected {argument}= as a name or a list of names, got {names!r}")
+    return split_names(listed)
+
+
+def _require_frames(frames: object) -> None:
+    if frames is None:
+        return
+    ends = list_given(frames)
+    if len(ends) != 2 or not all(isinstance(end, Integral) for end in ends):
+        raise ValueError(f"expected frames= as (first, stop), such as (120, 180), got {frames!r}")
 
 
 def _require_choice(name: str, value: str, known: Sequence[str] | Mapping[str, object]) -> None:

@@ -6,13 +6,13 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import isfinite
 
 import numpy as np
 
 from mocapbench.baselines.common.markers import marker_places
 from mocapbench.benchmark.filling.gaps import Gap, mask_gaps
 from mocapbench.benchmark.filling.requests.names import name_owners
+from mocapbench.benchmark.in_memory.arguments import require_count, require_positive
 from mocapbench.benchmark.task_files.hiding import (
     HidingError,
     gap_length,
@@ -63,12 +63,10 @@ class Gaps:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        if not (self.seconds > 0 and isfinite(self.seconds)):
-            raise ValueError(f"expected seconds= above 0, got {self.seconds}")
+        require_positive("seconds", self.seconds)
         if self.what not in _GROUPS:
             raise ValueError(f"expected what= as one of {', '.join(_GROUPS)}, got {self.what!r}")
-        if self.count < 1:
-            raise ValueError(f"expected count= of 1 or more, got {self.count}")
+        require_count("count", self.count)
 
     def place(self, recording: Recording) -> tuple[Gap, ...]:
         """Return the gaps of a recording, by their first frame.
@@ -86,7 +84,10 @@ class Gaps:
                 ((start, columns),) = _place_apart(recording, rng, groups, length, gaps)
                 gaps.append(Gap(start, start + length, tuple(sorted(columns))))
         except HidingError as error:
-            raise ValueError(f"{recording.name}: {error}; hide fewer or shorter gaps") from error
+            room = f"; there is room for {len(gaps)} of {self.count} gaps" if gaps else ""
+            raise ValueError(
+                f"{recording.name}: {error}{room}; hide fewer or shorter gaps"
+            ) from error
         return tuple(sorted(gaps))
 
 

@@ -14,7 +14,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.formats import format_for
-from mocapbench.benchmark.in_memory.arguments import translate_errors
+from mocapbench.benchmark.in_memory.arguments import require_positive, translate_errors
 from mocapbench.benchmark.in_memory.movement import read_movement
 from mocapbench.benchmark.in_memory.tables import read_frame
 from mocapbench.benchmark.missing_values import choose_missing_rule
@@ -69,7 +69,7 @@ def read(source: Any, **options: Any) -> Recording:
         called as in a CSV file, such as ``"knee [deg]"``; times are its index in seconds or a
         column called time. An array (frames, channels). A dataset of the package movement, with the
         dimensions time, space, keypoints and, if there are several, individuals. NaN marks what is
-        hidden.
+        hidden, as does the mask of an array.
     **options
         Of a file: ``rate`` in frames per second, ``min_likelihood``, ``insert_missing``,
         ``missing`` and ``hide_spikes``, as ``mocapbench fill`` has them. Of a table: ``rate``,
@@ -201,8 +201,7 @@ def _read_array(
             f"expected floating-point numbers, NaN where an entry is hidden, got {source.dtype}; "
             "mark what is missing, and convert it by .astype(float)"
         )
-    if rate is None or not 0 < rate < np.inf:
-        raise ValueError(f"expected rate= in frames per second, above 0, got {rate}")
+    fps = require_positive("rate", rate, "in frames per second, ")
     n_frames, n_channels = source.shape
     channels = [f"channel {n}" for n in range(n_channels)] if names is None else list(names)
     if len(channels) != n_channels:
@@ -210,5 +209,5 @@ def _read_array(
             f"expected names= of {n_channels} channels, as the array has, got {len(channels)}"
         )
     kinds = [units] * n_channels if isinstance(units, str) else list(units)
-    times = np.arange(n_frames) / rate
-    return unwrap_angles(Recording(name, times, source, tuple(channels), tuple(kinds)))
+    times, values = np.arange(n_frames) / fps, np.ma.filled(source, np.nan)
+    return unwrap_angles(Recording(name, times, values, tuple(channels), tuple(kinds)))

@@ -11,6 +11,7 @@ import pandas as pd
 
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.words import format_count, join_names
+from mocapbench.benchmark.in_memory.arguments import require_positive
 from mocapbench.datasets import FrameByChannel, Frames, Mask, Recording, unwrap_angles
 from mocapbench.datasets.formats.building import recording_of
 from mocapbench.datasets.formats.missing_rows import count_missing_rows
@@ -54,6 +55,8 @@ def read_frame(
     """
     names = [_join_levels(column) for column in table.columns]
     _check_columns(names, table)
+    if rate is not None:
+        require_positive("rate", rate, "in frames per second, ")
     columns = sort_columns(names, [True] * len(names))
     numbers = np.column_stack([_convert_column(table.iloc[:, k]) for k in range(len(names))])
     times = _find_times(name, names, columns, numbers, table.index).seconds(len(table), rate)

@@ -90,9 +90,16 @@ def require_columns(scores: pd.DataFrame, names: Sequence[str]) -> None:
     ValueError
         If it does.
     """
+    given: object = scores
+    if not isinstance(given, pd.DataFrame):
+        raise ValueError(f"expected the table that evaluate returns, got {type(given).__name__}")
     lacking = [name for name in names if name not in scores]
     if lacking:
         raise ValueError(f"expected the columns of evaluate, got none called {', '.join(lacking)}")
+    if "value" in names and not pd.api.types.is_numeric_dtype(scores["value"]):
+        raise ValueError(
+            "expected numbers in the column value, got others; take scores as they are"
+        )
 
 
 def _address_rows(scores: pd.DataFrame, column: str) -> pd.DataFrame:

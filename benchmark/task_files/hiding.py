@@ -188,6 +188,8 @@ def gap_length(seconds: float, recording: Recording) -> int:
     HidingError
         If it is shorter than one.
     """
+    if len(recording.times) < 2:
+        raise HidingError("two frames or more, which have a rate", f"{len(recording.times)}")
     rate = frame_rate(recording)
     if seconds * rate < 1.0 - _ROUNDING:
         raise HidingError(f"gaps of a frame or more, which is {1.0 / rate:.3g} s", f"{seconds:g} s")

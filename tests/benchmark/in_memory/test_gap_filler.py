@@ -89,6 +89,18 @@ def test_a_channel_that_was_never_visible_is_refused(gappy):
         GapFiller().fit_transform(values)
 
 
+def test_advice_is_for_those_who_write_python(gappy):
+    with pytest.raises(ValueError, match="handed over itself") as error:
+        GapFiller("liner").fit(gappy.values)
+    assert "--" not in str(error.value)
+
+
+def test_two_columns_of_one_name_are_refused(gappy):
+    table = pd.DataFrame(gappy.values[:, :3], columns=["a", "b", "a"])
+    with pytest.raises(ValueError, match="columns of different names, got 'a' 2 times"):
+        GapFiller().fit(table)
+
+
 def test_a_copy_has_its_parameters():
     filler = clone(GapFiller("makima", rate=30, seed=3))
     assert filler.get_params() == {"model": "makima", "rate": 30, "seed": 3}

@@ -157,6 +157,11 @@ def test_recordings_to_learn_from_count(walk):
         ({"effort": "most"}, "expected effort= as one of low, normal, high, got 'most'"),
         ({"frames": (3, 2)}, "expected frames= within 0:240"),
         ({"max_gap": 0.01}, "raise max_gap="),
+        ({"max_gap": "x"}, "expected max_gap= in seconds, above 0, got 'x'"),
+        ({"frames": "40:50"}, "expected frames= as (first, stop), such as (120, 180), got '40:50'"),
+        ({"frames": [(40, 50)]}, "expected frames= as (first, stop)"),
+        ({"frames": (1.5, 20)}, "expected frames= as (first, stop)"),
+        ({"channels": 0}, "expected channels= as a name or a list of names, got 0"),
         ({"rate": 3}, "expected options none for what is read here, got rate"),
     ],
 )
@@ -166,8 +171,14 @@ def test_options_that_cannot_be_met_are_refused_by_their_names_as_arguments(gapp
 
 
 def test_without_a_gap_there_is_nothing_to_fill(walk):
-    with pytest.raises(ValueError, match="expected a gap, got all entries visible"):
+    said = r"expected a gap, got all entries visible.* frames=, such as \(120, 180\)"
+    with pytest.raises(ValueError, match=said):
         mocapbench.fill(walk(), "linear")
+
+
+def test_a_single_recording_to_learn_from_need_not_be_in_a_list(gappy, walk):
+    one, other = (mocapbench.fill(gappy, "nn", train=t) for t in (walk(1), [walk(1)]))
+    np.testing.assert_array_equal(one.recording.values, other.recording.values)
 
 
 def test_of_nothing_nothing_is_filled(walk):

@@ -76,6 +76,9 @@ def test_what_is_hidden_already_is_not_hidden_again(gappy):
         ((np.nan,), "expected seconds= above 0, got nan"),
         ((1, "arm"), "expected what= as one of channel, marker, limb, frames, got 'arm'"),
         ((1, "limb", 0), "expected count= of 1 or more, got 0"),
+        (("x",), "expected seconds= above 0, got 'x'"),
+        (([0.1, 0.2],), "expected seconds= above 0, got [0.1, 0.2]"),
+        ((1, "limb", 1.5), "expected count= of 1 or more, got 1.5"),
     ],
 )
 def test_what_is_no_gap_is_refused(arguments, said):
@@ -88,11 +91,18 @@ def test_what_is_no_gap_is_refused(arguments, said):
     [
         (Gaps(5), "walk: expected 1 visible stretches of 5 s"),
         (Gaps(0.001), "walk: expected gaps of a frame or more"),
+        (Gaps(0.5, "frames", 1000), r"; there is room for \d+ of 1000 gaps; hide fewer"),
     ],
 )
 def test_a_recording_without_room_is_refused(walk, gaps, said):
     with pytest.raises(ValueError, match=said):
         gaps.place(walk())
+
+
+def test_a_recording_of_one_frame_has_no_rate(walk):
+    one = walk().frames(np.array([0]))
+    with pytest.raises(ValueError, match="expected two frames or more, which have a rate, got 1"):
+        Gaps(0.5).place(one)
 
 
 def test_of_too_few_markers_there_is_no_limb(walk):

@@ -82,6 +82,22 @@ def test_an_array_has_the_rate_that_is_named(gappy):
     assert_same(read, gappy)
 
 
+def test_what_a_mask_hides_is_hidden(gappy):
+    values = np.ma.masked_array(np.where(gappy.visible, gappy.values, -9999.0), ~gappy.visible)
+    read = mocapbench.read(values, rate=30)
+    np.testing.assert_array_equal(read.visible, gappy.visible)
+    np.testing.assert_array_equal(
+        mocapbench.GapFiller(rate=30).fit_transform(values),
+        mocapbench.GapFiller(rate=30).fit_transform(gappy.values),
+    )
+
+
+def test_the_rate_of_a_table_is_a_number(gappy):
+    table = pd.DataFrame(gappy.values, columns=gappy.channels)
+    with pytest.raises(ValueError, match=r"expected rate= in frames per second, above 0, got '60'"):
+        mocapbench.read(table, rate="60")
+
+
 def test_a_dataset_of_movement_is_the_recording(gappy):
     assert_same(mocapbench.read(to_dataset(gappy)), gappy)
     assert_same(mocapbench.read(to_dataset(gappy).position), gappy)
@@ -183,6 +199,16 @@ def test_a_table_that_is_no_recording_is_refused(gappy, fault, said):
         (np.zeros((5, 2), object), {"rate": 30}, "expected floating-point numbers"),
         (np.zeros((5, 2)), {}, "expected rate= in frames per second, above 0, got None"),
         (np.zeros((5, 2)), {"rate": -1}, "expected rate= in frames per second, above 0, got -1"),
+        (
+            np.zeros((5, 2)),
+            {"rate": "60"},
+            "expected rate= in frames per second, above 0, got '60'",
+        ),
+        (
+            np.zeros((5, 2)),
+            {"rate": True},
+            "expected rate= in frames per second, above 0, got True",
+        ),
         (np.zeros((5, 2)), {"rate": 30, "names": ["a"]}, "expected names= of 2 channels"),
         (np.zeros((5, 2)), {"rate": 30, "names": "aa"}, "expected distinct channel names"),
         (np.zeros((5, 2)), {"rate": 30, "units": ["mm"]}, "one unit for each"),

@@ -72,6 +72,8 @@ def test_a_model_without_scores_is_not_compared_by_that_metric():
     ("scores", "options", "said"),
     [
         (table(VALUES).drop(columns="gap"), {}, "got none called gap"),
+        (None, {}, "expected the table that evaluate returns, got NoneType"),
+        (table(VALUES).assign(value="x"), {}, "expected numbers in the column value"),
         (table(VALUES), {"by": "model"}, "expected by= as one of gap, recording, got 'model'"),
         (table({"a": [1.0]}), {}, "expected two models or more, got 1"),
         (pd.concat([table(VALUES)] * 2), {}, "expected one score of each, got several of"),
