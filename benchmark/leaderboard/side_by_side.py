@@ -187,8 +187,8 @@ def describe_entrants(
     """Return what a table says of each entrant, in its order.
 
     Each is a mapping: ``label``, ``by``, ``link``, ``paper``, ``code``, ``licence``, ``hardware``,
-    ``tasks`` and ``jobs`` with a result, and ``lacking``, jobs without one: texts but for the last
-    two.
+    the ``profile`` of the run with what it sets of the model, ``tasks`` and ``jobs`` with a result,
+    and ``lacking``, jobs without one: texts but for the last two.
 
     Parameters
     ----------
@@ -200,6 +200,7 @@ def describe_entrants(
     return [
         {
             **_count_jobs(of_label, submissions[archive]),
+            "profile": _describe_profile(of_label, submissions[archive][1]),
             **_describe_sender(submissions[archive][0]),
             **_describe_model(submissions[archive][0], of_label[0]),
         }
@@ -230,6 +231,15 @@ def _count_jobs(records: Sequence[Record], submission: Submission) -> dict[str, 
         "lacking": len(planned) - len(done),
         "hardware": "; ".join(machines),
     }
+
+
+def _describe_profile(records: Sequence[Record], run: MergedRun) -> str:
+    """Return the profile of a run, and what its budget sets of the model of some records."""
+    profiles = dict.fromkeys(provenance.get("profile", "") for provenance in run.runs)
+    budgets = (TASKS.get(r.address.task).profiles.get(p) for r in records for p in profiles)
+    names = {name for budget in budgets if budget for name in budget.budget}
+    said = (f"{k}={v}" for r in records for k, v in r.parameters.items() if k in names)
+    return ", ".join(filter(None, [*profiles, *dict.fromkeys(said)]))
 
 
 def _name_machine(provenance: Mapping[str, str]) -> str:

@@ -20,7 +20,7 @@ def render_leaderboard(
     ----------
     entrants : sequence of mapping
         Of each its ``label``, ``by``, ``link``, ``paper``, ``code``, ``licence``, ``hardware``,
-        ``tasks``, ``jobs`` and ``lacking``.
+        ``profile``, ``tasks``, ``jobs`` and ``lacking``.
     tables : sequence of Table
         One a task.
     archives : sequence of str

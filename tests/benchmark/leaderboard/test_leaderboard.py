@@ -153,6 +153,12 @@ def test_entrants_have_what_their_senders_say_of_them(send, unite, tmp_path):
     assert (y["paper"], y["code"], y["licence"]) == ("Ours", "https://example.org/y", "MIT")
 
 
+def test_entrants_say_by_which_profile_they_ran_and_what_it_sets(send, unite):
+    path = _change(send("a"), _in_records({"parameters": {"max_iter": 2, "kernel": "rbf"}}))
+    x, y = bench.describe_entrants(*unite(path))
+    assert x["profile"] == y["profile"] == "smoke, max_iter=2"
+
+
 @pytest.mark.parametrize(
     "text",
     [
