@@ -144,22 +144,24 @@ def _export_means(
     load_tasks(store)
     whole = bench.bundle(load_records(store), store.load_plan()["provenance"])
     labels = bench.find_labels(whole, names["models"])
+    metrics = bench.find_metrics(whole, names["metrics"])
     means, tables = reports.paper_tables(
         whole,
         bench.find_tasks(whole, names["tasks"]),
         bench.find_cases(whole, cases),
         labels,
-        bench.find_metrics(whole, names["metrics"]),
+        metrics,
     )
     if means.empty:
         raise UsageError(
-            "no score of what is chosen: the tasks, cases, models and metrics that are named do "
-            "not meet; leave one of these options out"
+            "no score of what is chosen: no such model has a score by such a metric in these tasks "
+            "and cases; leave one of these options out"
         )
     _write_means(means, tables, whole, paths)
     for path in paths.values():
         console.print(f"{format_count(len(tables), 'table')}: {path}", soft_wrap=True)
-    if lost := [label for label in labels if label not in {*means["label"]}]:
+    chosen = [(labels, means["label"]), (metrics, means["metric"])]
+    if lost := [name for named, shown in chosen for name in named if name not in {*shown}]:
         console.print(f"without a score there, so not shown: {', '.join(lost)}", soft_wrap=True)
     show_left_out(store.damaged, console)
 

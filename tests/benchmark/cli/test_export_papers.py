@@ -2,10 +2,13 @@
 
 import importlib
 import re
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
+
+from mocapbench.benchmark.runs.directory import RunDirectory
 
 TASK = "toy-interpolation-1"
 LABELS = ("mohgp-3", "knn", "trivial")
@@ -96,6 +99,17 @@ def test_a_model_without_a_score_is_named_and_without_any_there_is_no_table(
     assert "no score of what is chosen" in cli.printed
     assert cli(*given, "--models", "knn,mohgp-3") == 0
     assert "without a score there, so not shown: mohgp-3" in cli.printed
+
+
+def test_a_metric_by_which_none_has_a_score_is_named(cli, tmp_path, write_run):
+    rows = [(TASK, "test 1", label, 0) for label in ("knn", "mohgp-3")]
+    run = write_run(tmp_path / "run", rows)
+    store = RunDirectory(run)
+    (last,) = (record for record in store.planned() if record.address.label == "mohgp-3")
+    store.save(replace(last, scores={**last.scores, "crps": 1.0}))
+    given = ("export", run, "--to", tmp_path, "--format", "csv", "--models", "knn")
+    assert cli(*given, "--metrics", "mse,crps") == 0
+    assert "without a score there, so not shown: crps" in cli.printed
 
 
 @pytest.mark.parametrize("name", ["parquet", "xlsx"])
