@@ -18,6 +18,8 @@ from mocapbench.reports.text import number, slug
 
 __all__ = ["build_table", "describe_protocol"]
 
+BEST = "best"
+"""The kind of the cells that are bold."""
 _MARKS = {Place.INSEPARABLE.value: "†", Place.INCOMPLETE.value: "*"}
 _UNTESTED = "‡"
 _MEANINGS = {
@@ -52,6 +54,7 @@ def build_table(results: TaskResults, means: pd.DataFrame, profile: str) -> Tabl
         )
         for label in labels
     )
+    kinds = {cell.kind for row in rows for cell in row}
     used = {cell.mark for row in (heads, *rows) for cell in row}
     return Table(
         id=slug(results.layout.name, *places),
@@ -60,6 +63,7 @@ def build_table(results: TaskResults, means: pd.DataFrame, profile: str) -> Tabl
         rows=rows,
         notes=(
             _describe_numbers(counts, has_intervals=bool(means["half_width"].notna().any())),
+            *(["Bold: the best."] if BEST in kinds else []),
             *(f"{mark}: {meaning}." for mark, meaning in _MEANINGS.items() if mark in used),
             *([f"Not ranked: {', '.join(sorted(references))}."] if references else []),
         ),
@@ -92,7 +96,7 @@ def _column_cells(column: pd.DataFrame, places: int) -> dict[str, Cell]:
             number(row["mean"], places),
             spread="" if math.isnan(row["half_width"]) else number(row["half_width"], places),
             mark=_MARKS.get(row["test"], ""),
-            kind="best" if compared and row["test"] == Place.BEST.value else "",
+            kind=BEST if compared and row["test"] == Place.BEST.value else "",
             value=row["mean"],
         )
         for row in column.to_dict("records")
@@ -123,4 +127,4 @@ def _describe_metric(metric: MetricInfo) -> str:
 def _describe_numbers(counts: set[str], *, has_intervals: bool) -> str:
     n = next(iter(counts)) if len(counts) == 1 else "as many units as each column says"
     spread = " ± half of its 95 % interval by Student’s t" if has_intervals else ""
-    return f"Mean{spread} over {n}. Bold: the best."
+    return f"Mean{spread} over {n}."

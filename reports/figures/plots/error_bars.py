@@ -88,10 +88,9 @@ class ErrorBars(Plot):
             if table["low"].notna().any()
             else ""
         )
-        return (
-            f"Large markers are means{bars}; small ones are single values, over "
-            f"{format_count(int(most['n']), str(most['n_of']))} at most."
-        )
+        n, kind = int(most["n"]), str(most["n_of"])
+        of = f"{format_count(n, kind)} at most" if n > 1 else f"folds of one {kind}"
+        return f"Large markers are means{bars}; small ones are single values, of {of}."
 
 
 def _tabulate_metric(results: TaskResults, metric: str) -> pd.DataFrame:

@@ -193,3 +193,12 @@ def test_no_two_characters_become_one_and_no_markup_is_left():
     assert escape_latex("a - b, c") == "a - b, c"
     assert escape_latex("\\{}") == r"\textbackslash{}\{\}"
     assert escape_latex("x\x1b[31m\ny") == "x y"
+
+
+def test_the_best_is_said_to_be_bold_only_where_something_is(bundle):
+    labels = [*bundle.layouts[0].ranked]
+    one, several = (
+        paper_tables(bundle, TASKS[:1], (), chosen)[1][0] for chosen in (labels[:1], labels[:3])
+    )
+    assert "Bold: the best." in several.notes
+    assert "Bold: the best." not in one.notes
