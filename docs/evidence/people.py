@@ -2,9 +2,9 @@
 
 ::
 
-    python docs/evidence/people.py RUN [--all]
+    python docs/evidence/people.py RUN... [--all]
 
-prints a row for each case of the run that the first screen of its report answers, or for all cases
+prints a row for each case of the runs that the first screen of a report answers, or for all cases
 of many people: the best model and its mean, by how much it is better than the next, over how many
 people, by how much it is among people with odd and with even subject numbers, and who is best there
 if another; last whether the lead is decided at 5 % after Holm's correction, over rivals and then
@@ -34,9 +34,10 @@ from mocapbench.reports.text import number
 HALVES = {"odd": 1, "even": 0}
 
 
-def main(run: str, *options: str) -> None:
-    """Print the table of a run."""
-    table = pd.DataFrame(list_leads(Path(run), whole="--all" in options))
+def main(*arguments: str) -> None:
+    """Print the table of one run or more."""
+    runs, whole = [Path(each) for each in arguments if each != "--all"], "--all" in arguments
+    table = pd.DataFrame(row for run in runs for row in list_leads(run, whole=whole))
     table["decided"] = np.where(holm(table.pop("p")) <= ALPHA, "yes", "no")
     agree = table.pop("agrees")
     print("\n".join(markup_lines([*table.columns], table.to_numpy().tolist())))
