@@ -113,8 +113,11 @@ class JobQueue:
             waiting = [kind for kind in kinds for _ in self._waiting.get(kind, ())]
             if waiting and not self._durations.knows([(entrant, _FIT)]):
                 yield waiting[len(waiting) // 2]
-        for kind, jobs in self._waiting.items():
-            if len(jobs) >= _MANY and not self._durations.knows([kind]):
+        counts = Counter({kind[:2]: len(jobs) for kind, jobs in self._waiting.items()})
+        for kind, count in self._following.items():
+            counts[kind[:2]] += count
+        for kind in self._waiting:
+            if counts[kind[:2]] >= _MANY and not self._durations.knows([kind]):
                 yield kind
 
     def _append(self, job: Job, left: str) -> None:
@@ -208,14 +211,12 @@ class JobQueue:
     def _estimate_seconds(self, kind: _Kind) -> float:
         """Return how long a job takes, by those most alike.
 
-        No longer than to fit its model, as far as no other tells how long it takes to predict or
-        score alone.
+        To predict or score alone is expected to take as long as to fit too, until one of its kind
+        has: as it then goes soon, that is soon known.
         """
-        expected = self._durations.expect_seconds(_list_alike(kind))
-        own, fit = _list_of_entrant(kind), _list_of_entrant((*kind[:2], _FIT))
-        if not self._durations.knows(own) and self._durations.knows(fit):
-            return min(expected, self._durations.expect_seconds(fit))
-        return expected
+        fit = (*kind[:2], _FIT)
+        known = self._durations.knows([kind]) or not self._durations.knows(_list_of_entrant(fit))
+        return self._durations.expect_seconds(_list_alike(kind if known else fit))
 
     def time_left(self, n_workers: int) -> float:
         """Return about how many seconds it takes until all jobs have ended."""

@@ -108,6 +108,21 @@ def test_cases_of_many_jobs_are_tried_first(monkeypatch):
     assert left == pytest.approx(whole)
 
 
+def test_how_long_it_takes_to_predict_by_shared_models_is_soon_known_of_each_case(monkeypatch):
+    monkeypatch.setattr(time, "monotonic", lambda: 0.0)
+    seconds = {"x": 1.0, "y": 10.0, "z": 5.0}
+    queue = JobQueue(
+        [_job(n, training_key=f"model {case}", case=case) for n, case in enumerate("xyz" * 30)]
+    )
+    left, n_taken = 30 * sum(seconds.values()), 0
+    while n_taken < 10 or queue.time_left(1) != pytest.approx(left):
+        job = queue.take()
+        queue.finish(job, seconds[job.address.case])
+        left -= seconds[job.address.case]
+        n_taken += 1
+        assert n_taken <= 10
+
+
 def test_a_run_that_goes_on_knows_how_long_jobs_took_before(monkeypatch):
     monkeypatch.setattr(time, "monotonic", lambda: 0.0)
     before = [
