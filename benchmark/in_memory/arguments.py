@@ -53,9 +53,9 @@ def require_count(name: str, value: object) -> None:
         raise ValueError(f"expected {name}= of 1 or more, got {value!r}")
 
 
-def list_given(sources: Any) -> list[Any]:
+def list_given(given: Any) -> list[Any]:
     """Return what an argument holds: a list or tuple of recordings, or a single one."""
-    return [*sources] if isinstance(sources, list | tuple) else [sources]
+    return [*given] if isinstance(given, list | tuple) else [given]
 
 
 @contextmanager

@@ -69,7 +69,7 @@ class JobQueue:
         self._durations = Durations()
         self._expected: dict[_Kind, float] = {}
         self._kinds: dict[_Entrant, dict[_Kind, None]] = defaultdict(dict)
-        self.n_jobs = 0
+        self.n_jobs: int = 0
         """How many jobs there are to do."""
         for job in jobs:
             self.n_jobs += 1

@@ -48,9 +48,19 @@ def test_the_ground_is_below_the_lowest_foot(gap):
 def test_there_is_no_player_without_a_body_or_without_a_truth(gap):
     bodiless = replace(gap, problem=replace(gap.problem, body=None))
     unknown = gap.problem.truth[0].copy()
-    unknown[3, 3] = np.nan
+    unknown[3:5, 3] = np.nan
     unsure = replace(gap, problem=replace(gap.problem, truth=(unknown,)))
     assert draw_filled_motion(bodiless) == draw_filled_motion(unsure) == ()
+
+
+def test_a_single_frame_without_a_truth_is_drawn_halfway(gap):
+    halfway, unknown = (gap.problem.truth[0].copy() for _ in range(2))
+    halfway[3], unknown[3, 3] = (halfway[2] + halfway[4]) / 2, np.nan
+    drawn = [
+        draw_filled_motion(replace(gap, problem=replace(gap.problem, truth=(truth,))))[0]
+        for truth in (halfway, unknown)
+    ]
+    np.testing.assert_array_equal(drawn[0].truths["truth"], drawn[1].truths["truth"])
 
 
 def test_scaled_values_are_placed_on_the_spot(posed):
