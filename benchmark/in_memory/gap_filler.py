@@ -16,6 +16,7 @@ from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.benchmark.in_memory.arguments import require_positive, translate_errors
 from mocapbench.benchmark.in_memory.gap_filling import solve_request
 from mocapbench.benchmark.in_memory.own_models import ModelLike, name_model, require_model
+from mocapbench.benchmark.in_memory.tables import require_different_names
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["GapFiller"]
@@ -69,7 +70,7 @@ class GapFiller(OneToOneFeatureMixin, TransformerMixin, BaseEstimator):  # type:
             Of no effect.
         """
         del y
-        _require_different_names(X)
+        require_different_names([*map(str, getattr(X, "columns", ()))])
         values = validate_data(
             self, _show_masked(X), dtype=np.float64, ensure_all_finite="allow-nan"
         )
@@ -139,11 +140,3 @@ class GapFiller(OneToOneFeatureMixin, TransformerMixin, BaseEstimator):  # type:
 def _show_masked(X: ArrayLike) -> ArrayLike:
     """Return an array with NaN where a mask hides entries, of which scikit-learn knows nothing."""
     return np.ma.filled(X.astype(float), np.nan) if isinstance(X, np.ma.MaskedArray) else X
-
-
-def _require_different_names(X: object) -> None:
-    names = [*map(str, getattr(X, "columns", ()))]
-    if repeated := [name for name in names if names.count(name) > 1]:
-        raise ValueError(
-            f"expected columns of different names, got {repeated[0]!r} {len(repeated)} times"
-        )

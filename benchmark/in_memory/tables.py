@@ -23,7 +23,7 @@ from mocapbench.datasets.formats.tables.columns import (
 )
 from mocapbench.datasets.formats.tables.frame_times import FrameTimes
 
-__all__ = ["read_frame", "tabulate_values"]
+__all__ = ["read_frame", "require_different_names", "tabulate_values"]
 
 _NAMED = 4
 _NANOSECONDS = 1e9
@@ -81,9 +81,7 @@ def _check_columns(names: Sequence[str], table: pd.DataFrame) -> None:
     """Refuse a table without numbers, with others, or with a name twice."""
     if not table.size:
         raise ValueError(f"expected a row a frame and a column a channel, got shape {table.shape}")
-    name, count = Counter(names).most_common(1)[0]
-    if count > 1:
-        raise ValueError(f"expected columns of different names, got {name!r} {count} times")
+    require_different_names(names)
     kinds = table.dtypes.to_numpy()
     others = [n for n, kind in zip(names, kinds, strict=True) if not _is_number(kind)]
     if others:
@@ -96,6 +94,13 @@ def _check_columns(names: Sequence[str], table: pd.DataFrame) -> None:
             "expected floating-point numbers, NaN where an entry is hidden, got integers alone; "
             "mark what is missing, and convert them by .astype(float)"
         )
+
+
+def require_different_names(names: Sequence[str]) -> None:
+    """Refuse columns of which two have one name."""
+    for name, count in Counter(names).most_common(1):
+        if count > 1:
+            raise ValueError(f"expected columns of different names, got {name!r} {count} times")
 
 
 def _is_number(kind: Any) -> bool:
