@@ -9,6 +9,7 @@ the visible frames is added to the whole path.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import ClassVar, Self
 
 import numpy as np
@@ -71,9 +72,6 @@ class PoseViterbi(FrameImputer, Inductive):
         The first and the last state of the stretch that a state is in.
     searched_ : ndarray of int, shape (M,)
         The states among which a path is searched first: all, or the frames alone.
-    transition_ : ndarray of shape (M, M)
-        The cost of going from one of these (row) to another (column); infinite where it is not
-        allowed.
 
     References
     ----------
@@ -137,8 +135,17 @@ class PoseViterbi(FrameImputer, Inductive):
         places = np.arange(len(self.frames_)) - self.first_
         step = 1 if len(places) <= _SEARCHED else self.steps
         self.searched_: Index = np.flatnonzero(places % step == 0)
-        self.transition_: Array = self._cost_jumps(self.searched_, self.searched_)
+        vars(self).pop("transition_", None)  # of an earlier fit
         return self
+
+    @cached_property
+    def transition_(self) -> Array:
+        """The cost (M, M) of going from a searched state (row) to another (column).
+
+        It is infinite where that is not allowed. A model that has not searched yet does without:
+        for a hundred recordings it has gigabytes, and follows from the frames.
+        """
+        return self._cost_jumps(self.searched_, self.searched_)
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the frames of the cheapest path, shifted by the subject's offset.
@@ -209,11 +216,14 @@ class PoseViterbi(FrameImputer, Inductive):
         """Return λ ‖Y_{s+u} − Y_{s'}‖² from states s (…, m) to s' (…, n); infinite at an end."""
         last = self.last_[here]
         after, onto = self.frames_[np.minimum(here + self.steps, last)], self.frames_[there]
-        # ‖a − b‖² = ‖a‖² − 2 aᵀb + ‖b‖²
-        costs = -2.0 * after @ np.swapaxes(onto, -1, -2)
-        costs += (after**2).sum(axis=-1)[..., None]
-        costs += (onto**2).sum(axis=-1)[..., None, :]
-        costs = self.smoothness * np.maximum(costs, 0.0)
+        # ‖a − b‖² = ‖a‖² − 2 aᵀb + ‖b‖², the states that lead to one beside each other: so they are
+        # searched. In place, since there may be gigabytes.
+        leading = onto @ np.swapaxes(-2.0 * after, -1, -2)
+        leading += (after**2).sum(axis=-1)[..., None, :]
+        leading += (onto**2).sum(axis=-1)[..., None]
+        np.maximum(leading, 0.0, out=leading)
+        leading *= self.smoothness
+        costs = np.swapaxes(leading, -1, -2)
         costs[here + self.steps > last] = np.inf
         return np.asarray(costs)
 

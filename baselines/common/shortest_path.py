@@ -20,7 +20,8 @@ def cheapest_path(
     emission : ndarray of shape (T, S)
         The cost of each state at each time.
     transition : ndarray of shape (S, S)
-        The cost of going from state (row) to state (column); infinite where that is impossible.
+        The cost of going from state (row) to state (column); infinite where that is impossible. It
+        is copied unless the rows of each column are neighbours in memory.
 
     Returns
     -------

@@ -1,3 +1,4 @@
+import pickle
 from itertools import pairwise, product
 
 import numpy as np
@@ -100,6 +101,23 @@ def test_the_states_of_a_frame_pass_through_it():
     one, four = (PoseViterbi(steps=steps).fit([train]) for steps in (1, 4))
     np.testing.assert_allclose(four.frames_[::4], one.frames_, atol=1e-12)
     np.testing.assert_allclose(four.transition_[::4, ::4], one.transition_, atol=1e-9)
+
+
+def test_what_is_handed_to_other_processes_grows_with_frames_and_not_with_their_pairs():
+    sizes = [
+        len(pickle.dumps(PoseViterbi().fit([recording("train", circle(0, n_frames))])))
+        for n_frames in (400, 800)
+    ]
+    assert sizes[1] < 2.5 * sizes[0]
+
+
+def test_a_second_fit_forgets_the_costs_of_the_first():
+    other, train = (recording("train", circle(0, n_frames)) for n_frames in (30, 40))
+    model = PoseViterbi().fit([other])
+    assert model.transition_.shape == (30, 30)
+    np.testing.assert_array_equal(
+        model.fit([train]).transition_, PoseViterbi().fit([train]).transition_
+    )
 
 
 @pytest.fixture
