@@ -40,9 +40,7 @@ def alike(address: Address) -> tuple[tuple[str, ...], ...]:
 def of_records(records: Iterable[Record]) -> Durations:
     """Return how long the fits of ``records`` took, predictions included."""
     return _learnt(
-        (record.address, record.fit_seconds + (record.predict_seconds or 0.0))
-        for record in records
-        if record.fit_seconds is not None
+        (record.address, record.seconds) for record in records if record.seconds is not None
     )
 
 

@@ -127,6 +127,13 @@ class Record:
         """Return what pickles it: a record that a worker sends shares its provenance, too."""
         return type(self), tuple(getattr(self, item.name) for item in fields(self))
 
+    @property
+    def seconds(self) -> float | None:
+        """How long the fit and the prediction took; None where the fit is not known."""
+        return (
+            None if self.fit_seconds is None else self.fit_seconds + (self.predict_seconds or 0.0)
+        )
+
     def to_json(self) -> str:
         """Return the record as JSON; NaN becomes null, the address five entries."""
         document = {item.name: getattr(self, item.name) for item in fields(self)}

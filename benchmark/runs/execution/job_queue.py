@@ -67,6 +67,7 @@ class JobQueue:
         self._leads: dict[str, Job] = {}
         self._running: dict[str, tuple[_Kind, float]] = {}
         self._durations = Durations()
+        # Kept, as thousands of kinds are asked for whenever a job is taken or ends.
         self._expected: dict[_Kind, float] = {}
         self._kinds: dict[_Entrant, dict[_Kind, None]] = defaultdict(dict)
         self.n_jobs: int = 0
@@ -102,8 +103,7 @@ class JobQueue:
         """Learn from records how long jobs take that fit a model."""
         for record in finished:
             if record.status is Status.OK:
-                seconds = (record.fit_seconds or 0.0) + (record.predict_seconds or 0.0)
-                self._durations.learn(_list_alike(_kind(record, _FIT)), seconds)
+                self._durations.learn(_list_alike(_kind(record, _FIT)), record.seconds or 0.0)
         for entrant in self._kinds:
             self._expect_anew(entrant)
 

@@ -1,5 +1,7 @@
 """What a program is told is what the recording says, and comes back to the last digit."""
 
+import pickle
+
 import numpy as np
 import pytest
 import scipy.io
@@ -38,3 +40,11 @@ def test_what_r_and_julia_write_for_a_missing_number_is_nan(tmp_path):
     (tmp_path / "mean.csv").write_text("NA,1\nNaN,2\n")
     read = EXCHANGES["csv"].read(tmp_path)["mean"]
     np.testing.assert_array_equal(read, [[np.nan, 1.0], [np.nan, 2.0]])
+
+
+@pytest.mark.parametrize("content", [b"mean 1 2", pickle.dumps({"mean": 1.0}), b""])
+def test_what_is_no_archive_is_refused_without_advice_to_load_it_unsafely(content, tmp_path):
+    path = tmp_path / "0001.npz"
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match="no archive of arrays"):
+        EXCHANGES["npz"].read(path)

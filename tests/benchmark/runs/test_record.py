@@ -140,3 +140,9 @@ def test_a_record_without_an_entry_is_refused(record, entry):
 def test_numbers_of_any_size_stay_what_they_are(whole, number):
     record = Record("k", "f", Address("t", 1, "c"), 0, "m", {"a": whole, "b": [number]}, Status.OK)
     assert Record.from_json(record.to_json()).parameters == record.parameters
+
+
+def test_a_job_took_its_fit_and_its_prediction(record):
+    assert replace(record, fit_seconds=2.0, predict_seconds=0.5).seconds == 2.5
+    assert replace(record, fit_seconds=2.0, predict_seconds=None).seconds == 2.0
+    assert replace(record, fit_seconds=None, predict_seconds=0.5).seconds is None

@@ -127,10 +127,7 @@ def test_a_run_that_goes_on_knows_how_long_jobs_took_before(monkeypatch):
     monkeypatch.setattr(time, "monotonic", lambda: 0.0)
     before = [
         SimpleNamespace(
-            address=Address("task", 1, "case", 9, label),
-            status=status,
-            fit_seconds=seconds - 1,
-            predict_seconds=1,
+            address=Address("task", 1, "case", 9, label), status=status, seconds=seconds
         )
         for label, status, seconds in [("a", Status.OK, 3), ("b", Status.OK, 7), ("b", "failed", 1)]
     ]
