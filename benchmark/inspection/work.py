@@ -29,6 +29,7 @@ MEASURED = {"smoke": "smoke", "quick": "quick", "paper": "quick"}
 """Of each profile, the one whose fits were measured; those of ``paper`` take longer."""
 
 _TYPICAL = Path(__file__).with_name("typical_seconds.csv")
+"""What docs/evidence/typical_seconds.py prints."""
 
 
 def alike(address: Address) -> tuple[tuple[str, ...], ...]:
