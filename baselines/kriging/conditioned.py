@@ -194,6 +194,12 @@ def growth_of_variance(sums: Array) -> float:
     ----------
     sums : ndarray of shape (2, D)
         Of squared errors and of their variances; 0 where nothing was left out.
+
+    Notes
+    -----
+    Gaps can be longer than all that is left out. Variances that grow on to their length, by its
+    power .4 or by what halves of the stretches tell, hold .92 of gaps of two seconds of thirty
+    people in place of .90, but CRPS is 2 % larger there and in `missing-frames`: not adopted.
     """
     squares, expected = sums.sum(axis=1)
     return float(max(squares / expected, 1.0)) if expected > 0.0 else 1.0
