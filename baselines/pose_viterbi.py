@@ -142,8 +142,9 @@ class PoseViterbi(FrameImputer, Inductive):
     def transition_(self) -> Array:
         """The cost (M, M) of going from a searched state (row) to another (column).
 
-        It is infinite where that is not allowed. A model that has not searched yet does without:
-        for a hundred recordings it has gigabytes, and follows from the frames.
+        It is infinite where that is not allowed. It is computed for the first search, so that a
+        model that was only fitted is handed to other processes without: of a hundred recordings it
+        takes gigabytes.
         """
         return self._cost_jumps(self.searched_, self.searched_)
 

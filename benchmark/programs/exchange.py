@@ -6,12 +6,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
-from zipfile import is_zipfile
 
 import numpy as np
 import pandas as pd
 import scipy.io
 from numpy.typing import NDArray
+
+from mocapbench.basics.array_archives import open_arrays
 
 __all__ = ["EXCHANGES", "Exchange", "NamedArrays"]
 
@@ -43,9 +44,7 @@ class _NumPy(Exchange):
         np.savez(path, allow_pickle=False, **arrays)
 
     def read(self, path: Path) -> NamedArrays:
-        if not is_zipfile(path):  # of which numpy says that it can be loaded unsafely
-            raise ValueError("a file that is no archive of arrays")
-        with np.load(path, allow_pickle=False) as held:
+        with open_arrays(path) as held:
             return {name: held[name] for name in held}
 
 

@@ -29,6 +29,7 @@ import msgspec
 import numpy as np
 from filelock import FileLock, Timeout
 
+from mocapbench.basics.array_archives import open_arrays
 from mocapbench.basics.system.choice import find_system
 from mocapbench.basics.temporaries import sweep
 from mocapbench.basics.whole_files import atomic_write, write_text
@@ -232,7 +233,8 @@ class RunDirectory:
         if not path.is_file():
             return None
         try:
-            with np.load(path, allow_pickle=False) as arrays:
+            with open_arrays(path) as arrays:
+                assert arrays.zip is not None  # as it is once closed
                 _require_stored(arrays.zip, path)
                 return read(arrays, key)
         except Exception as error:  # NumPy and zipfile do not say what a damaged file raises

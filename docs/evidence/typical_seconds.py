@@ -23,9 +23,9 @@ def main(runs: Sequence[str]) -> None:
     for store in map(bench.RunDirectory, map(Path, runs)):
         profile = store.load_plan()["provenance"]["profile"]
         for record in store.planned():
-            if record.fit_seconds is not None:
-                took = record.fit_seconds + (record.predict_seconds or 0.0)
-                seconds[profile, record.address.task, record.address.label].append(took)
+            if record.seconds is not None:
+                row = profile, record.address.task, record.address.label
+                seconds[row].append(record.seconds)
     rows = csv.writer(sys.stdout, lineterminator="\n")
     rows.writerow(("profile", "task", "label", "seconds"))
     rows.writerows((*row, f"{fmean(values):.2g}") for row, values in sorted(seconds.items()))
