@@ -39,6 +39,7 @@ from mocapbench.baselines.kriging.mirror_images import (
 )
 from mocapbench.baselines.kriging.own_course import own_course
 from mocapbench.baselines.kriging.paths import (
+    blend_paths,
     doubt_about_path,
     explained_share,
     match_paths,
@@ -65,9 +66,11 @@ class PoseKriging(FrameImputer, Inductive):
     r"""Fill frames from matched training recordings, corrected by a Gaussian process.
 
     Training recording k contributes the poses :math:`m_k(t)` of its cheapest path, the subject's
-    offset from it taken out: first the difference of means, then the mean residual of a path,
-    twice. The poses are averaged to :math:`m(t)` with weights :math:`w_k \propto \exp(-e_k / \min_j
-    e_j)`, where :math:`e_k` is the variance of the residual at visible frames. The conditional mean
+    offset from it taken out: first the difference of means, then the mean residual of a rough path,
+    twice. Recordings that match far worse than the best one are left out. The poses are averaged to
+    :math:`m(t)` with weights :math:`w_k \propto \exp(-3 e_k / \min_j e_j)`, where :math:`e_k` is
+    the variance of the residual at visible frames; in the mean of a fill, weights move to those
+    that explain visible frames best (``mocapbench.baselines.kriging.paths``). The conditional mean
     of a Gaussian process then corrects it: each channel of :math:`y - m` is a constant, about which
     nothing is known before, plus a process of covariance :math:`\sigma_d^2 (e^{-|t - t'| / \tau} +
     v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2 S} + 0.05\, \delta)`, with S the total variance of training
@@ -84,10 +87,10 @@ class PoseKriging(FrameImputer, Inductive):
     The predictive variance is that of this process, with the scale :math:`\sigma_d^2` integrated
     out, and grown by how much more than expected it errs in visible stretches as long as the gaps,
     each left out, plus the doubt about the path. Each path, corrected in the same way, is a
-    prediction :math:`\mu_k(t)`, and their weighted mean is the prediction :math:`\mu(t)`. A new
-    subject counts as one more draw from those whose K paths are seen, so that the doubt is
-    :math:`\frac{K + 1}{K - 1} \sum_k w_k (\mu_k(t) - \mu(t))^2`. A single training recording says
-    nothing about it.
+    prediction :math:`\mu_k(t)`, and :math:`\mu(t)` their mean with weights w. A new subject counts
+    as one more draw from those whose paths are seen, so that with :math:`q = \sum_k w_k^2` the
+    doubt is :math:`\frac{1 + q}{1 - q} \sum_k w_k (\mu_k(t) - \mu(t))^2`. A single training
+    recording says nothing about it.
 
     Of the rotation and the path of a root such as the Acclaim format has, the mean heading of each
     recording is taken out (``mocapbench.baselines.common.heading``), and of markers where they
@@ -104,11 +107,11 @@ class PoseKriging(FrameImputer, Inductive):
     variance at visible frames. It is filled from its own course over time, whatever was learnt, and
     so is one that was the only one to learn from.
 
-    The defaults gave the least error when each training walker of ``missing-frames`` was held out
-    in turn; ``docs/calibration.md`` has the choice of ``least_explained``. Time is counted in
-    frames, of which 30 per second are used (``mocapbench.baselines.kriging.frame_rates``).
-    Where channels have several units, degrees and radians count as degrees,
-    and mm, cm and m as the CMU database's unit of length, 5.64 cm.
+    The defaults gave nearly the least error when each training walker of ``missing-frames`` was
+    held out in turn; ``docs/calibration.md`` has the choice of ``least_explained``. Time is counted
+    in frames, of which 30 per second are used (``mocapbench.baselines.kriging.frame_rates``). Where
+    channels have several units, degrees and radians count as degrees, and mm, cm and m as the CMU
+    database's unit of length, 5.64 cm.
 
     Parameters
     ----------
@@ -118,7 +121,7 @@ class PoseKriging(FrameImputer, Inductive):
         The number of states of a training frame in `PoseViterbi`; at least 1.
     pose_lengthscale : float, default=1.0
         The lengthscale h over poses, in units of the total standard deviation √S; positive.
-    pose_variance : float, default=3.0
+    pose_variance : float, default=6.0
         The prior variance v of the part that depends on pose; not negative.
     time_lengthscale : float, default=4.0
         The lengthscale τ over time, in frames; positive.
@@ -185,7 +188,7 @@ class PoseKriging(FrameImputer, Inductive):
         *,
         steps: int = 4,
         pose_lengthscale: float = 1.0,
-        pose_variance: float = 3.0,
+        pose_variance: float = 6.0,
         time_lengthscale: float = 4.0,
         symmetry: float = 0.8,
         least_explained: float = 1.0 / 3.0,
@@ -289,6 +292,7 @@ class PoseKriging(FrameImputer, Inductive):
         corrected, variance = paths.copy(), np.empty(recording.values.shape)
         copies = [_in_all_images(each, visible, n_images) for each in copy_gaps(visible)]
         sums, matched = np.empty((2, len(self.channels_))), np.tensordot(weights, paths, axes=1)
+        products = np.zeros((len(paths), len(paths)))
         for channels, given in self._residuals().condition(matched, visible):
             those = residuals[:, :, channels]
             corrected[:, :, channels] += [given.mean(each)[:n_frames] for each in those]
@@ -296,7 +300,8 @@ class PoseKriging(FrameImputer, Inductive):
             scales = given.scales(averaged, self._least(visible))
             variance[:, channels] = given.variances(scales)[:n_frames]
             sums[:, channels] = given.leave_out(copies, averaged, scales)
-        mean = np.tensordot(weights, corrected, axes=1)
+            products += given.products(those, scales) / n_images  # each image has every residual
+        mean = np.tensordot(blend_paths(weights, products), corrected, axes=1)
         variance *= growth_of_variance(sums)
         return mean, variance + doubt_about_path(corrected, weights)
 

@@ -135,7 +135,8 @@ class PoseViterbi(FrameImputer, Inductive):
         places = np.arange(len(self.frames_)) - self.first_
         step = 1 if len(places) <= _SEARCHED else self.steps
         self.searched_: Index = np.flatnonzero(places % step == 0)
-        vars(self).pop("transition_", None)  # of an earlier fit
+        for computed in ("transition_", "_frames_alone"):
+            vars(self).pop(computed, None)  # of an earlier fit
         return self
 
     @cached_property
@@ -187,13 +188,38 @@ class PoseViterbi(FrameImputer, Inductive):
         ValueError
             If a frame is hidden in part, or no frame is visible.
         """
+        return self._match_among(recording, self.searched_, self.transition_)
+
+    def match_roughly(self, recording: Recording) -> FrameByChannel:
+        """Return the training frames (N, D) of the cheapest path near that of frames alone.
+
+        It takes about 1 / ``steps``² of the time of `match`, and is the same where `match` searches
+        frames alone first.
+
+        Raises
+        ------
+        ValueError
+            If a frame is hidden in part, or no frame is visible.
+        """
+        return self._match_among(recording, *self._frames_alone)
+
+    @cached_property
+    def _frames_alone(self) -> tuple[Index, Array]:
+        """The states that are training frames, and the costs of jumps between them."""
+        frames = np.flatnonzero((np.arange(len(self.frames_)) - self.first_) % self.steps == 0)
+        return frames, self._cost_jumps(frames, frames)
+
+    def _match_among(
+        self, recording: Recording, searched: Index, transition: Array
+    ) -> FrameByChannel:
+        """Return the cheapest path among some states, and from there near it."""
         visible = visible_frames(recording)
         values = in_pose_units(recording).values[visible]
         # Hidden frames cost nothing, so that jumps alone decide there.
-        costs = np.zeros((len(visible), len(self.searched_)))
-        costs[visible] = euclidean_distances(values, self.frames_[self.searched_], squared=True)
-        path = self.searched_[cheapest_path(costs, self.transition_)]
-        if len(self.searched_) < len(self.frames_):
+        costs = np.zeros((len(visible), len(searched)))
+        costs[visible] = euclidean_distances(values, self.frames_[searched], squared=True)
+        path = searched[cheapest_path(costs, transition)]
+        if len(searched) < len(self.frames_):
             path = self._search_near(path, values, visible)
         return np.asarray(self.frames_[path] / pose_factors(recording.units))
 

@@ -141,6 +141,20 @@ class ConditionedFrames:
             sums[1] += self.doubt_of_scale * np.trace(covariance) * scales
         return sums
 
+    def products(self, residuals: Array, scales: Array) -> Array:
+        """Return the products (K, K) of K residuals, each in units of its standard deviation.
+
+        They are sums over channels of rᵀP r', with P the precision of the visible frames.
+
+        Parameters
+        ----------
+        residuals : ndarray of shape (K, n, D)
+        scales : ndarray of shape (D,)
+            As `scales` returns them.
+        """
+        weighted = self._precision @ residuals / scales
+        return np.tensordot(weighted, residuals, axes=((1, 2), (1, 2)))
+
     def variances(self, scales: Array) -> Array:
         """Return the variance (N, D) of each frame and channel, the scale integrated out."""
         return self.doubt_of_scale * np.outer(self.variance, scales)

@@ -9,7 +9,12 @@ from samples import gap
 from mocapbench.baselines import pose_kriging as module
 from mocapbench.baselines.kriging.conditioned import copy_gaps
 from mocapbench.baselines.kriging.own_course import own_course
-from mocapbench.baselines.kriging.paths import doubt_about_path, match_paths, weigh_paths
+from mocapbench.baselines.kriging.paths import (
+    blend_paths,
+    doubt_about_path,
+    match_paths,
+    weigh_paths,
+)
 from mocapbench.baselines.pose_kriging import PoseKriging, _unite
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.datasets import Recording
@@ -171,7 +176,7 @@ def test_the_doubt_about_the_path_only_adds_to_the_variance(style, start, first)
     assert (prediction.variance[hidden] >= conditional * (1 - 1e-9)).all()
 
 
-def test_the_mean_is_the_weighted_mean_of_what_each_path_predicts():
+def test_the_mean_is_a_blend_of_what_each_path_predicts():
     model = PoseKriging().fit(TRAINING)
     recording = gap(walk("new", 2, 30, style=0.2), 10, 16)
     paths, errors = match_paths(recording, model.matchers_)
@@ -180,7 +185,10 @@ def test_the_mean_is_the_weighted_mean_of_what_each_path_predicts():
     ((_, process),) = model._residuals().condition(matched, visible)
     each = [path + process.mean((recording.values - path)[visible]) for path in paths]
     mean, _ = model._correct_paths(recording, paths, weights)
-    np.testing.assert_allclose(mean, np.average(each, axis=0, weights=weights), atol=1e-9)
+    residuals = (recording.values - paths)[:, visible]
+    scales = process.scales(np.average(residuals, axis=0, weights=weights), 0.0)
+    blended = blend_paths(weights, process.products(residuals, scales))
+    np.testing.assert_allclose(mean, np.average(each, axis=0, weights=blended), atol=1e-9)
 
 
 def test_residuals_vary_as_much_more_as_copies_of_the_gaps_err_more_than_expected(monkeypatch):

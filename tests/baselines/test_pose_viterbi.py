@@ -169,3 +169,10 @@ def test_where_all_states_are_near_frames_first_changes_nothing(seed, match_near
     train, given_ = recording("train", draw_walk(seed, 2)), draw_gap(seed + 99, 7)
     best = PoseViterbi(1.0, steps=4).fit([train]).match(given_)
     np.testing.assert_allclose(match_near(train, given_), best, atol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_rough_match_is_that_of_frames_first(seed, match_near):
+    train, given_ = recording("train", draw_walk(seed, 12)), draw_gap(seed + 99, 9)
+    rough = PoseViterbi(1.0, steps=4).fit([train]).match_roughly(given_)
+    np.testing.assert_array_equal(rough, match_near(train, given_))

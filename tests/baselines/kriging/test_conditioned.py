@@ -38,6 +38,15 @@ def test_moments_are_those_of_the_joint_normal(seed):
     np.testing.assert_allclose(process.scales(residuals, 1e-300), scales)
 
 
+def test_products_of_residuals_are_those_of_whitened_ones():
+    process, one = frames(0)
+    both, scales = np.array([one, one**2]), np.array([0.5, 1.0, 2.0])
+    noisy = (process.prior + process.noise * np.eye(12))[np.ix_(process.visible, process.visible)]
+    white = np.linalg.solve(np.linalg.cholesky(noisy), both) / np.sqrt(scales)
+    expected = [[(left * right).sum() for right in white] for left in white]
+    np.testing.assert_allclose(process.products(both, scales), expected)
+
+
 def test_evidence_differs_as_the_density_of_a_student_t():
     """Up to a constant, the evidence is −½ ln|K| − n/2 ln rᵀK⁻¹r."""
     (one, residuals), (two, _) = frames(0), frames(0)
