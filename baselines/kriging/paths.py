@@ -44,10 +44,10 @@ def match_paths(recording: Recording, matchers: Sequence[PoseViterbi]) -> tuple[
     offsets = [centre - matcher.frames_.mean(axis=0) for matcher in matchers]
     rough = np.array(list(map(partial(_match_roughly, recording), matchers, offsets)))
     errors = rough.var(axis=1).sum(axis=1)
-    near = np.flatnonzero(errors <= _FAR * errors.min())
+    near = np.flatnonzero(errors <= _FAR * errors.min()).tolist()
     moved = [offsets[k] + rough[k].mean(axis=0) for k in near]
     paths = np.array(
-        [_match_path(recording, matchers[k], o) for k, o in zip(near, moved, strict=True)]
+        [_match_path(recording, matchers[k], to) for k, to in zip(near, moved, strict=True)]
     )
     return paths, (recording.values - paths)[:, visible].var(axis=1).sum(axis=1)
 
