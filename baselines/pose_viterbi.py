@@ -193,8 +193,8 @@ class PoseViterbi(FrameImputer, Inductive):
     def match_roughly(self, recording: Recording) -> FrameByChannel:
         """Return the training frames (N, D) of the cheapest path near that of frames alone.
 
-        It takes about 1 / ``steps``² of the time of `match`, and is the same where `match` searches
-        frames alone first.
+        It takes about the time of `match` by the square of ``steps``, and is the same where `match`
+        searches frames alone first.
 
         Raises
         ------
