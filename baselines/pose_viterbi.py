@@ -70,6 +70,8 @@ class PoseViterbi(FrameImputer, Inductive):
         measured.
     first_, last_ : ndarray of int, shape (S,)
         The first and the last state of the stretch that a state is in.
+    whole_ : ndarray of int, shape (F,)
+        The states that are training frames.
     searched_ : ndarray of int, shape (M,)
         The states among which a path is searched first: all, or the frames alone.
 
@@ -133,9 +135,10 @@ class PoseViterbi(FrameImputer, Inductive):
         self.first_: Index = np.repeat(last + 1 - lengths, lengths)
         self.last_: Index = np.repeat(last, lengths)
         places = np.arange(len(self.frames_)) - self.first_
-        step = 1 if len(places) <= _SEARCHED else self.steps
-        self.searched_: Index = np.flatnonzero(places % step == 0)
-        for computed in ("transition_", "_frames_alone"):
+        self.whole_: Index = np.flatnonzero(places % self.steps == 0)
+        few = len(places) <= _SEARCHED
+        self.searched_: Index = np.arange(len(places)) if few else self.whole_
+        for computed in ("transition_", "_transition_of_whole"):
             vars(self).pop(computed, None)  # of an earlier fit
         return self
 
@@ -201,13 +204,14 @@ class PoseViterbi(FrameImputer, Inductive):
         ValueError
             If a frame is hidden in part, or no frame is visible.
         """
-        return self._match_among(recording, *self._frames_alone)
+        return self._match_among(recording, self.whole_, self._transition_of_whole)
 
     @cached_property
-    def _frames_alone(self) -> tuple[Index, Array]:
-        """The states that are training frames, and the costs of jumps between them."""
-        frames = np.flatnonzero((np.arange(len(self.frames_)) - self.first_) % self.steps == 0)
-        return frames, self._cost_jumps(frames, frames)
+    def _transition_of_whole(self) -> Array:
+        """The cost of going from a state that is a training frame to another: `transition_`."""
+        if len(self.whole_) == len(self.searched_):
+            return self.transition_
+        return self._cost_jumps(self.whole_, self.whole_)
 
     def _match_among(
         self, recording: Recording, searched: Index, transition: Array

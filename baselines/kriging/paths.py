@@ -89,7 +89,7 @@ def blend_paths(weights: Array, products: Array) -> Array:
     Returns
     -------
     ndarray of shape (K,)
-        Of the posterior mean of u.
+        w, moved by the posterior mean of u.
 
     Notes
     -----

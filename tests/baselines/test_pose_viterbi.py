@@ -176,3 +176,11 @@ def test_a_rough_match_is_that_of_frames_first(seed, match_near):
     train, given_ = recording("train", draw_walk(seed, 12)), draw_gap(seed + 99, 9)
     rough = PoseViterbi(1.0, steps=4).fit([train]).match_roughly(given_)
     np.testing.assert_array_equal(rough, match_near(train, given_))
+
+
+def test_a_second_fit_forgets_the_rough_costs_of_the_first():
+    given_, model = draw_gap(99, 9), PoseViterbi(1.0, steps=4)
+    model.fit([recording("other", draw_walk(1, 15))]).match_roughly(given_)
+    fresh = PoseViterbi(1.0, steps=4).fit([recording("train", draw_walk(0, 12))])
+    rough = model.fit([recording("train", draw_walk(0, 12))]).match_roughly(given_)
+    np.testing.assert_array_equal(rough, fresh.match_roughly(given_))
