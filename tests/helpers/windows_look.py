@@ -20,6 +20,7 @@ ATTRIBUTES = {
     signal: {
         "SIGKILL", "SIGALRM", "SIGHUP", "SIGXCPU", "SIGPIPE", "SIGUSR1", "setitimer", "getitimer",
         "ITIMER_REAL", "ITIMER_PROF", "pthread_sigmask", "SIG_BLOCK", "SIG_SETMASK", "SIGPROF",
+        "pthread_kill",
     },
 }  # fmt: skip
 

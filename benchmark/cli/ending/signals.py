@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import signal
 import sys
 import threading
@@ -11,13 +12,12 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-from mocapbench.basics.system.choice import find_system
-from mocapbench.basics.system.starting import list_signals
+from mocapbench.basics.system.starting import list_signals, strike_main_thread
 from mocapbench.benchmark.errors import Interruption
 
 __all__ = ["wind_up_at_signals"]
 
-_ENDING, _ALARM = list_signals("SIGINT", "SIGTERM", "SIGHUP"), list_signals("SIGALRM")
+_ENDING = list_signals("SIGINT", "SIGTERM", "SIGHUP")
 _PATIENCE = 5.0
 """Seconds for which a signal waits for the end of an import at most."""
 _PAUSE = 0.02
@@ -53,24 +53,36 @@ class _Ending:
 
     def __init__(self) -> None:
         self.interruption: Interruption | None = None
-        self._latest = 0.0
+        self._has_struck, self._is_over = False, False
+        self._waiting: list[int] = []
 
     def receive(self, number: int, frame: FrameType | None) -> None:
-        """Take note of a signal; the second does not wait."""
-        if self.interruption is None:
-            self._latest = time.monotonic() + _PATIENCE
-            self.interruption = Interruption(number)
-        else:
-            self._latest = 0.0
-        self.strike(number, frame)
-
-    def strike(self, _number: int, frame: FrameType | None) -> None:
-        """Interrupt what runs, or come back a little later."""
-        waits = _is_importing(frame) and time.monotonic() < self._latest
-        if waits and find_system().send_alarm(_PAUSE):
+        """Interrupt what runs, or once an import is over; the second signal does not wait."""
+        if self._is_over:
             return
-        if self.interruption is not None:
-            raise self.interruption
+        if self.interruption is None:
+            self.interruption = Interruption(number)
+            if _is_importing(frame):
+                self._waiting.append(number)
+                # Not by `threading`, whose locks may be held by what the signal has met.
+                _thread.start_new_thread(self._strike_later, ())
+                return
+        self._has_struck = True
+        raise self.interruption
+
+    def _strike_later(self) -> None:
+        main, latest = threading.main_thread().ident, time.monotonic() + _PATIENCE
+        while _is_importing(sys._current_frames().get(main or 0)) and time.monotonic() < latest:
+            time.sleep(_PAUSE)
+        if not self._has_struck:
+            strike_main_thread(self._waiting[0])
+        self._waiting.pop()
+
+    def finish(self) -> None:
+        """Return once no signal waits; those that come meanwhile change nothing."""
+        self._is_over = self._has_struck = self.interruption is not None
+        while self._waiting:
+            time.sleep(_PAUSE)
 
 
 @contextmanager
@@ -78,15 +90,14 @@ def _handlers(ending: _Ending) -> Iterator[None]:
     """Handle signals within the context, but those that are ignored, as SIGHUP under nohup."""
     before: dict[int, Any] = {}
     if threading.current_thread() is threading.main_thread():
-        before = {number: signal.getsignal(number) for number in (*_ENDING, *_ALARM)}
+        before = {number: signal.getsignal(number) for number in _ENDING}
     heard = [number for number in before if before[number] is not signal.SIG_IGN]
     try:
         for number in heard:
-            signal.signal(number, ending.strike if number in _ALARM else ending.receive)
+            signal.signal(number, ending.receive)
         yield
     finally:
-        if ending.interruption is not None:
-            find_system().stop_timer()
+        ending.finish()
         for number in heard:
             signal.signal(number, before[number])
 

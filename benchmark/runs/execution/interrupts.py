@@ -13,8 +13,7 @@ from mocapbench.basics.system.starting import list_signals
 
 __all__ = ["interrupts_later"]
 
-_ENDING = list_signals("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
-"""An alarm brings back a signal that struck where it had to wait."""
+_ENDING = list_signals("SIGINT", "SIGTERM", "SIGHUP")
 
 
 @contextmanager

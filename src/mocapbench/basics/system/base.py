@@ -132,9 +132,6 @@ class System(Protocol):
     def is_end_of_time(self, exit_code: int) -> bool:
         """Return whether a timer has ended a process."""
 
-    def send_alarm(self, seconds: float) -> bool:
-        """Have SIGALRM sent to this process in so many seconds, if the system can."""
-
     def hold(self, path: Path) -> AbstractContextManager[None]:
         """Hold the lock of a temporary file or folder within the context.
 

@@ -126,10 +126,6 @@ class Linux:
     def is_end_of_time(self, exit_code: int) -> bool:  # noqa: D102
         return exit_code == -signal.SIGALRM
 
-    def send_alarm(self, seconds: float) -> bool:  # noqa: D102
-        signal.setitimer(signal.ITIMER_REAL, seconds)
-        return True
-
     @contextmanager
     def hold(self, path: Path) -> Iterator[None]:  # noqa: D102
         of_folder = stat.S_ISDIR(path.lstat().st_mode)

@@ -140,10 +140,6 @@ class Portable:
     def is_end_of_time(self, exit_code: int) -> bool:  # noqa: D102
         return exit_code == END_OF_TIME
 
-    def send_alarm(self, seconds: float) -> bool:  # noqa: D102
-        del seconds  # Windows has no such signal
-        return False
-
     @contextmanager
     def hold(self, path: Path) -> Iterator[None]:  # noqa: D102
         lock = _name_lock(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import os
 import signal
 import sys
@@ -18,6 +19,7 @@ __all__ = [
     "hide_script",
     "hold_interrupts",
     "list_signals",
+    "strike_main_thread",
 ]
 
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
@@ -83,5 +85,13 @@ def hold_interrupts() -> Iterator[None]:
 
 
 def list_signals(*names: str) -> list[signal.Signals]:
-    """Return those signals that the system has: Windows has neither SIGHUP nor SIGALRM."""
+    """Return those signals that the system has: Windows has no SIGHUP."""
     return [signal.Signals[name] for name in names if name in signal.Signals.__members__]
+
+
+def strike_main_thread(number: int) -> None:
+    """Have a signal handled by the main thread, which it wakes if the system can do so."""
+    if hasattr(signal, "pthread_kill"):  # not on Windows
+        signal.pthread_kill(threading.main_thread().ident or 0, number)
+    else:
+        _thread.interrupt_main(signal.Signals(number))
