@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -16,6 +17,7 @@ from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.programs.entrants import locate_plugin
+from mocapbench.benchmark.runs.execution.worker import load_plugins_once
 from mocapbench.benchmark.testing import model_checks
 
 __all__ = ["app"]
@@ -39,9 +41,10 @@ def check_model(
     well, and else 2.
     """
     console = LiteralConsole()
+    places = tuple(map(locate_plugin, files))
     faults = [
-        _find_fault(console, name, check, timeout)
-        for name in _load_models(files)
+        _find_fault(console, name, check, places, timeout)
+        for name in _load_models(places)
         for check in model_checks(bench.MODELS.get(name))
     ]
     failed = sum(map(bool, faults))
@@ -49,7 +52,7 @@ def check_model(
     raise typer.Exit(ExitCode.USAGE if failed else ExitCode.OK)
 
 
-def _load_models(files: list[Path]) -> list[str]:
+def _load_models(files: tuple[Path, ...]) -> list[str]:
     """Register what files define, and return the names of their models, each with one seed.
 
     Raises
@@ -58,7 +61,7 @@ def _load_models(files: list[Path]) -> list[str]:
         If there is none.
     """
     before = {*bench.MODELS.names()}
-    bench.load_plugins([locate_plugin(path) for path in files])
+    load_plugins_once(files)
     new = sorted({*bench.MODELS.names()} - before)
     names = [name for name in new if not getattr(bench.MODELS.get(name), "same_as", "")]
     if not names:
@@ -68,11 +71,16 @@ def _load_models(files: list[Path]) -> list[str]:
 
 
 def _find_fault(
-    console: LiteralConsole, name: str, check: Callable[..., None], timeout: float
+    console: LiteralConsole,
+    name: str,
+    check: Callable[..., None],
+    files: tuple[Path, ...],
+    timeout: float,
 ) -> str:
     """Return what a check of a model finds, which is said too; an empty text if all is well."""
     try:
-        fault = str(call_in_child(_try_check, check, name, timeout=timeout))
+        prepare = partial(load_plugins_once, files)
+        fault = str(call_in_child(_try_check, check, name, timeout=timeout, prepare=prepare))
     except TimeoutError:
         fault = f"expected an end within {timeout:g} s, got none; --timeout gives more"
     except ProcessDiedError as error:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping
+from functools import partial, update_wrapper
 from typing import Any
 
 from sklearn.base import clone
@@ -73,14 +74,15 @@ def model_checks(model: type[Model], **parameters: Any) -> tuple[Callable[..., N
 
 
 def _name_check(check: ModelCheck) -> Callable[..., None]:
+    """Return a check of a class of models, which another process can be handed."""
+    named = partial(_require_promise, check)
+    return update_wrapper(named, check, assigned=("__name__",))
+
+
+def _require_promise(check: ModelCheck, model: type[Model], **parameters: Any) -> None:
     promise = (inspect.getdoc(check) or "").removeprefix("Check that ").rstrip(".")
-
-    def run(model: type[Model], **parameters: Any) -> None:
-        with raised_by(model.__name__, promise), global_randomness_untouched():
-            check(Subject(model, parameters))
-
-    run.__name__ = check.__name__
-    return run
+    with raised_by(model.__name__, promise), global_randomness_untouched():
+        check(Subject(model, parameters))
 
 
 def is_documented(subject: Subject) -> None:

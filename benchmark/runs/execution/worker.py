@@ -19,7 +19,7 @@ from mocapbench.basics.child import ProcessDiedError
 from mocapbench.basics.system.choice import find_system
 from mocapbench.basics.system.starting import forget_safe_path
 from mocapbench.benchmark.archives import archive_at
-from mocapbench.benchmark.plugins import load_plugin
+from mocapbench.benchmark.plugins import load_plugins
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.evaluate import evaluate
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
@@ -77,8 +77,7 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
 @cache
 def load_plugins_once(paths: tuple[Path, ...]) -> None:
     """Register what the user's own files define, where this process has not done so."""
-    for path in paths:
-        load_plugin(path)
+    load_plugins(paths)
 
 
 def _register_all(

@@ -35,9 +35,9 @@ def call_in_child(
     Parameters
     ----------
     function : callable
-        Raises nothing, and returns what can be pickled.
+        Raises nothing. It can be pickled, and so can what it returns.
     *arguments
-        What it is called with.
+        What it is called with; they can be pickled.
     timeout : float
         Seconds after which the process is killed; what is longer counts as `LONGEST`.
     prepare : callable, optional

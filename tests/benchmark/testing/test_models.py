@@ -1,5 +1,6 @@
 """The conformance kit names the fault of a model that does not conform."""
 
+import pickle
 import re
 import runpy
 from pathlib import Path
@@ -24,6 +25,14 @@ def test_the_fault_of_a_model_is_named(model):
     assert messages
     assert all(message.startswith(f"{model.__name__}: expected") for message in messages)
     assert any(re.search(NONCONFORMING[model], message) for message in messages)
+
+
+def test_a_check_can_be_handed_to_a_process_that_starts_anew():
+    for check in model_checks(MOHGP):
+        again = pickle.loads(pickle.dumps(check))
+        assert again.__name__ == check.__name__
+    with pytest.raises(ConformanceError, match=r"^MOHGP: expected"):
+        again(MOHGP, n_components=-1)
 
 
 def test_parameters_reach_the_model():
