@@ -6,6 +6,7 @@ real outcome of each entrant stands for all its jobs, with scores that vary from
 
 from __future__ import annotations
 
+import math
 import os
 import resource
 import sys
@@ -49,7 +50,7 @@ def main(n_jobs: int, folder: Path) -> None:
     with timed("plan", n_jobs):
         jobs = bench.plan(request, archive)
     about = bench.provenance(["mocapbench"], 1)
-    config = bench.WorkerConfig((), (), 600.0, resource.RLIM_INFINITY, 1, about)
+    config = bench.WorkerConfig((), (), 600.0, math.inf, 1, about)
     outcomes = {
         job.address.label: evaluate(Work(job, None), config, archive)
         for job in jobs

@@ -3,8 +3,8 @@
 Stage by stage, and as a whole in runs of many jobs on two workers, beside an empty function's call.
 """
 
+import math
 import os
-import resource
 import time
 from pathlib import Path
 
@@ -41,7 +41,7 @@ def _jobs(size, folds):
 
 def _config():
     about = bench.provenance(["mocapbench"], 1)
-    return bench.WorkerConfig((), (PLUGIN,), 600.0, resource.RLIM_INFINITY, 1, about)
+    return bench.WorkerConfig((), (PLUGIN,), 600.0, math.inf, 1, about)
 
 
 @pytest.fixture

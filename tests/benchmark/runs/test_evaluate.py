@@ -1,7 +1,6 @@
 """A record of a job that a metric fails names the metric."""
 
 import math
-import resource
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +15,7 @@ from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.runs.request import Request
 from mocapbench.metrics import Score
 
-CONFIG = WorkerConfig((), (), 600.0, resource.RLIM_INFINITY, 1, {})
+CONFIG = WorkerConfig((), (), 600.0, math.inf, 1, {})
 
 
 def _raises(outcome):

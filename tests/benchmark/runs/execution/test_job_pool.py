@@ -76,7 +76,8 @@ def test_each_ending_is_recorded_and_the_others_run(cli, records, arguments, tmp
 @pytest.mark.parametrize("metric", BY_METRIC)
 def test_a_metric_fails_its_jobs_and_ends_no_run(cli, records, arguments, broken_metrics, metric):
     status, message = BY_METRIC[metric]
-    chosen = ("--models", "well-behaved,trivial", "--metrics", metric, "--timeout", 2)
+    seconds = 2 if status == "timeout" else 60
+    chosen = ("--models", "well-behaved,trivial", "--metrics", metric, "--timeout", seconds)
     chosen = (*chosen, "--jobs", 1, "--no-report")
     assert cli(*arguments, "--plugin", broken_metrics, *chosen) == (0 if status == "ok" else 3)
     out = arguments[arguments.index("--out") + 1]

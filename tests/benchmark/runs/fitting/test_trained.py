@@ -1,7 +1,7 @@
 """A model that is fitted once answers every problem as one that is fitted anew for it."""
 
 import dataclasses
-import resource
+import math
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from mocapbench.benchmark.runs.job import Work, WorkerConfig
 from mocapbench.benchmark.runs.plan import plan
 from mocapbench.benchmark.runs.request import Request, entrants
 
-CONFIG = WorkerConfig((), (), 600.0, resource.RLIM_INFINITY, 1, {})
+CONFIG = WorkerConfig((), (), 600.0, math.inf, 1, {})
 TASK = "missing-frames"
 COSTS = {"fit_seconds", "predict_seconds", "peak_memory_mb", "arrays"}
 
