@@ -30,7 +30,7 @@ class WorkerConfig:
         The user's own files of models, tasks, metrics and libraries.
     timeout : float
         Seconds after which a job is killed.
-    memory : int
+    memory : float
         Bytes of address space that a job may take.
     threads : int
         Threads that a job may divide its work among; results do not depend on it.
@@ -43,7 +43,7 @@ class WorkerConfig:
     folders: tuple[Path, ...]
     plugins: tuple[Path, ...]
     timeout: float
-    memory: int
+    memory: float
     threads: int
     provenance: Mapping[str, str]
     task_files: tuple[TaskFile, ...] = ()
@@ -104,7 +104,7 @@ class Job:
             **results,
         )
 
-    def record_failure(self, error: BaseException, memory: int) -> Record:
+    def record_failure(self, error: BaseException, memory: float) -> Record:
         """Return a record of this job, which may take ``memory`` bytes and raised ``error``."""
         text = traceback_of(error)
         match error:
