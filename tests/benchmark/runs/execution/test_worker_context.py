@@ -70,6 +70,7 @@ def test_programs_that_a_model_starts_find_their_helpers(monkeypatch, tmp_path, 
     assert pool.submit(subprocess.check_output, words).result() == b"found\n"
 
 
+@pytest.mark.forks
 def test_a_server_that_is_loading_does_not_hear_of_an_interrupt():
     code = "import time; from mocapbench import benchmark as b; b.worker_context(); time.sleep(0.5)"
     with subprocess.Popen(
