@@ -73,7 +73,8 @@ def stages(tmp_path, request):
 @pytest.mark.parametrize(
     "how",
     [
-        *("empty call", "read", "pose", "evaluate", "score", "fork"),
+        *("empty call", "read", "pose", "evaluate", "score"),
+        pytest.param("fork", marks=pytest.mark.forks),
         *("keep predictions", "keep record", "look up record"),
     ],
 )
