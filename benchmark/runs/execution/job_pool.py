@@ -22,12 +22,6 @@ from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
 
 __all__ = ["JobPool"]
 
-_GRACE = 60.0
-"""Seconds after which a worker is killed that should have ended itself.
-
-Where a thread of it watches the time, a library that lets no other thread run keeps it from that.
-"""
-
 
 class JobPool:
     """Workers on this machine, started when the first job comes.
@@ -48,8 +42,7 @@ class JobPool:
 
     def submit(self, work: Work) -> Future[Outcome]:
         """Have a worker run a job as soon as one is free."""
-        latest = self._config.timeout + _GRACE
-        return self._pool.submit(run_job, work, self._config, self._spool, timeout=latest)
+        return self._pool.submit(run_job, work, self._config, self._spool)
 
     def wait_for_any(self, futures: Collection[Future[Outcome]]) -> Collection[Future[Outcome]]:
         """Wait until one or more of ``futures`` have ended, and return them."""
@@ -63,15 +56,13 @@ class JobPool:
         UsageError
             If no worker can start, since a script starts the run again in each.
         """
-        timeout = self._config.timeout
         try:
             return future.result()
         except BrokenProcessPool as error:
             raise UsageError(UNGUARDED) from error
-        except TimeoutError:
-            return Outcome(job.timed_out(timeout), seconds=timeout)
         except ProcessExpired as error:
             if find_system().is_end_of_time(error.exitcode):
+                timeout = self._config.timeout
                 return Outcome(job.timed_out(timeout), seconds=timeout)
             message = f"the worker died with exit code {error.exitcode} before it could report"
         except (Exception, CancelledError) as error:

@@ -12,7 +12,6 @@ from pebble import ProcessExpired, ProcessPool
 from pebble.common.types import Result, ResultStatus
 from pebble.pool.process import PoolManager
 
-from mocapbench.basics.child import LONGEST
 from mocapbench.benchmark.runs.execution.interrupts import interrupts_later
 from mocapbench.benchmark.runs.execution.worker import prepare_worker
 from mocapbench.benchmark.runs.execution.worker_context import worker_context
@@ -78,12 +77,10 @@ class WorkerPool:
             n_workers, max_tasks=_MOST_JOBS, context=start(), initializer=prepare_worker
         )
 
-    def submit(
-        self, function: Callable[..., Any], *arguments: Any, timeout: float = LONGEST
-    ) -> Future[Any]:
-        """Have a worker call a function as soon as one is free; after a timeout it is killed."""
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """Have a worker call a function as soon as one is free."""
         with interrupts_later():
-            return self._pool.schedule(function, arguments, timeout=min(timeout, LONGEST))
+            return self._pool.schedule(function, arguments)
 
     def wait_for_any(self, futures: Collection[Future[Any]]) -> Collection[Future[Any]]:
         """Wait until one or more of ``futures`` have ended, and return them."""

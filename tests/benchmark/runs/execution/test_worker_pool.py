@@ -1,7 +1,6 @@
 """A worker does many jobs, but not without end."""
 
 import os
-import time
 
 import pytest
 from pebble import ProcessExpired
@@ -38,13 +37,6 @@ def test_a_worker_that_exits_in_a_job_ends_that_job_and_no_other(code, pool):
     assert [getattr(error, "exitcode", None) for error in ended] == [code, None, code]
     assert isinstance(ended[0], ProcessExpired)
     assert futures[1].result() == 1
-
-
-def test_a_worker_that_takes_too_long_for_a_job_is_killed_and_replaced(pool):
-    workers = pool(1)
-    futures = [workers.submit(time.sleep, 600, timeout=0.5), workers.submit(abs, -1)]
-    assert isinstance(futures[0].exception(timeout=60), TimeoutError)
-    assert futures[1].result(timeout=60) == 1
 
 
 def test_a_result_that_comes_after_its_worker_has_ended_is_waited_for(monkeypatch, pool):
