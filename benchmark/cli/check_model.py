@@ -41,10 +41,10 @@ def check_model(
     well, and else 2.
     """
     console = LiteralConsole()
-    places = tuple(map(locate_plugin, files))
+    prepare = partial(load_plugins_once, tuple(map(locate_plugin, files)))
     faults = [
-        _find_fault(console, name, check, places, timeout)
-        for name in _load_models(places)
+        _find_fault(console, name, check, prepare, timeout)
+        for name in _load_models(files, prepare)
         for check in model_checks(bench.MODELS.get(name))
     ]
     failed = sum(map(bool, faults))
@@ -52,7 +52,7 @@ def check_model(
     raise typer.Exit(ExitCode.USAGE if failed else ExitCode.OK)
 
 
-def _load_models(files: tuple[Path, ...]) -> list[str]:
+def _load_models(files: list[Path], prepare: Callable[[], None]) -> list[str]:
     """Register what files define, and return the names of their models, each with one seed.
 
     Raises
@@ -61,7 +61,7 @@ def _load_models(files: tuple[Path, ...]) -> list[str]:
         If there is none.
     """
     before = {*bench.MODELS.names()}
-    load_plugins_once(files)
+    prepare()
     new = sorted({*bench.MODELS.names()} - before)
     names = [name for name in new if not getattr(bench.MODELS.get(name), "same_as", "")]
     if not names:
@@ -74,12 +74,11 @@ def _find_fault(
     console: LiteralConsole,
     name: str,
     check: Callable[..., None],
-    files: tuple[Path, ...],
+    prepare: Callable[[], None],
     timeout: float,
 ) -> str:
     """Return what a check of a model finds, which is said too; an empty text if all is well."""
     try:
-        prepare = partial(load_plugins_once, files)
         fault = str(call_in_child(_try_check, check, name, timeout=timeout, prepare=prepare))
     except TimeoutError:
         fault = f"expected an end within {timeout:g} s, got none; --timeout gives more"
