@@ -71,8 +71,12 @@ class _Ending:
         raise self.interruption
 
     def _strike_later(self) -> None:
-        main, latest = threading.main_thread().ident, time.monotonic() + _PATIENCE
-        while _is_importing(sys._current_frames().get(main or 0)) and time.monotonic() < latest:
+        main, latest = threading.main_thread().ident or 0, time.monotonic() + _PATIENCE
+        while (
+            not self._has_struck
+            and _is_importing(sys._current_frames().get(main))
+            and time.monotonic() < latest
+        ):
             time.sleep(_PAUSE)
         if not self._has_struck:
             strike_main_thread(self._waiting[0])
