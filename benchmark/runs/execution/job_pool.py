@@ -22,6 +22,13 @@ from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
 
 __all__ = ["JobPool"]
 
+_GRACE = 120.0
+"""Seconds beyond its time after which a job is killed from outside.
+
+A worker ends itself in time where the system sees to it. Elsewhere a thread of it does, for which
+code that is not Python may leave no chance to run. To start a job may take a minute: it imports.
+"""
+
 
 class JobPool:
     """Workers on this machine, started when the first job comes.
@@ -36,7 +43,7 @@ class JobPool:
     """
 
     def __init__(self, n_workers: int, config: WorkerConfig, spool: Spool) -> None:
-        self._pool = WorkerPool(n_workers)
+        self._pool = WorkerPool(n_workers, timeout=config.timeout + _GRACE)
         self._config = config
         self._spool = spool
 
@@ -62,12 +69,17 @@ class JobPool:
             raise UsageError(UNGUARDED) from error
         except ProcessExpired as error:
             if find_system().is_end_of_time(error.exitcode):
-                timeout = self._config.timeout
-                return Outcome(job.timed_out(timeout), seconds=timeout)
+                return self._time_out(job)
             message = f"the worker died with exit code {error.exitcode} before it could report"
+        except TimeoutError:
+            return self._time_out(job)
         except (Exception, CancelledError) as error:
             message = f"no report came back: {reason(error)}"
         return Outcome.without_report(job, message)
+
+    def _time_out(self, job: Job) -> Outcome:
+        timeout = self._config.timeout
+        return Outcome(job.timed_out(timeout), seconds=timeout)
 
     def stop(self, futures: Collection[Future[Outcome]]) -> None:
         """Kill the workers with what they run; the jobs of ``futures`` are cancelled."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections import Counter
 from collections.abc import Callable, Collection
 from concurrent.futures import FIRST_COMPLETED, Future, wait
@@ -10,7 +11,8 @@ from typing import Any
 
 from pebble import ProcessExpired, ProcessPool
 from pebble.common.types import Result, ResultStatus
-from pebble.pool.process import PoolManager
+from pebble.pool.base_pool import Task
+from pebble.pool.process import PoolManager, TaskManager
 
 from mocapbench.benchmark.runs.execution.interrupts import interrupts_later
 from mocapbench.benchmark.runs.execution.worker import prepare_worker
@@ -26,6 +28,23 @@ _LOOKS = 50
 """Looks, a tenth of a second apart, after which a job whose worker has ended is given up."""
 
 
+class _Jobs(TaskManager):
+    """Pebble's, by a clock that never jumps."""
+
+    def task_start(self, task_id: int, worker_id: int | None) -> None:
+        """Do what pebble does, and note when the job started."""
+        job = self.tasks.get(task_id)
+        super().task_start(task_id, worker_id)
+        if job is not None:
+            job.timestamp = time.monotonic()
+
+    @staticmethod
+    def timeout(task: Task) -> bool:
+        """Whether a job has lasted for longer than it may."""
+        limit = float("inf") if task.timeout is None else task.timeout
+        return task.started and time.monotonic() - task.timestamp > limit
+
+
 class _Manager(PoolManager):
     """Pebble's, which takes an exit code of 0 for the end of a worker that has done its jobs.
 
@@ -35,6 +54,7 @@ class _Manager(PoolManager):
 
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)
+        self.task_manager = _Jobs(self.context.task_queue.task_done)
         self._looks: Counter[int] = Counter()
 
     def update_status(self) -> None:
@@ -70,9 +90,17 @@ class WorkerPool:
         How many jobs run at once.
     start : callable, optional
         Returns the context in which workers start.
+    timeout : float, optional
+        Seconds after which a job is killed with its worker, and ends with `TimeoutError`.
     """
 
-    def __init__(self, n_workers: int, start: Callable[[], BaseContext] = worker_context) -> None:
+    def __init__(
+        self,
+        n_workers: int,
+        start: Callable[[], BaseContext] = worker_context,
+        timeout: float | None = None,
+    ) -> None:
+        self._timeout = timeout
         self._pool = _Pool(
             n_workers, max_tasks=_MOST_JOBS, context=start(), initializer=prepare_worker
         )
@@ -80,7 +108,7 @@ class WorkerPool:
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """Have a worker call a function as soon as one is free."""
         with interrupts_later():
-            return self._pool.schedule(function, arguments)
+            return self._pool.schedule(function, arguments, timeout=self._timeout)
 
     def wait_for_any(self, futures: Collection[Future[Any]]) -> Collection[Future[Any]]:
         """Wait until one or more of ``futures`` have ended, and return them."""

@@ -3,6 +3,8 @@
 import psutil
 import pytest
 
+from mocapbench.benchmark.runs.execution import job_pool
+
 LITTERS = ["sleep", "601"], ["sleep", "602"]
 ENDINGS = {
     "raises": ("failed", "RuntimeError: the model <b>raised</b>"),
@@ -50,6 +52,12 @@ def arguments(tmp_path, broken_models):
     ]
 
 
+@pytest.fixture
+def short_grace(monkeypatch):
+    """Kill jobs from outside soon after their time."""
+    monkeypatch.setattr(job_pool, "_GRACE", 5.0)
+
+
 def _litter():
     return [p for p in psutil.process_iter(["cmdline"]) if p.info["cmdline"] in LITTERS]
 
@@ -74,6 +82,7 @@ def test_each_ending_is_recorded_and_the_others_run(cli, records, arguments, tmp
 
 @pytest.mark.slow
 @pytest.mark.parametrize("metric", BY_METRIC)
+@pytest.mark.usefixtures("short_grace")
 def test_a_metric_fails_its_jobs_and_ends_no_run(cli, records, arguments, broken_metrics, metric):
     status, message = BY_METRIC[metric]
     seconds = 2 if status == "timeout" else 60
