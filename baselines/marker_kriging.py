@@ -31,7 +31,8 @@ class MarkerKriging(Imputer, Inductive):
     shape of the markers around it tells how: the knee bends, and what is on the thigh shifts. Every
     hidden marker is therefore seen from a body that moves with the markers around it, those the
     more whose distance to it hardly varies. As seen from there, where it is is a Gaussian process
-    of the shape of these markers and of time, learnt from the frames in which it is visible.
+    of the shape of these markers, of how this shape changes (a swinging limb passes through the
+    same one both ways), and of time, learnt from the frames in which it is visible.
     Recordings given to `fit` are used besides, as far as they show the same markers.
 
     Its parameters are those that best predict held-out gaps of the same length, in closed form.
@@ -60,13 +61,16 @@ class MarkerKriging(Imputer, Inductive):
     -----
     With rotations :math:`R_t` and centres :math:`c_t` of the body (`RigidBody` has the weights),
     the marker at :math:`x(t)` is seen at :math:`\xi(t) = (x(t) - c_t) R_t^\top`. With the shapes
-    :math:`\phi_t` that the markers around have as seen from the body, its covariance between frames
-    t and t' of recordings r and r' is
+    :math:`\phi_t` that the markers around have as seen from the body, and by how much it is another
+    just before and after, :math:`\chi_t`, its covariance between frames t and t' of recordings r
+    and r' is
 
     .. math::
 
         \sigma^2 \Bigl[ 1 + \delta_{rr'}
         + \bigl(1 + \lVert \phi_t - \phi_{t'} \rVert^2 / \ell^2\bigr)^{-1/2}
+        + \bigl(1 + (\lVert \phi_t - \phi_{t'} \rVert^2
+        + w^2 \lVert \chi_t - \chi_{t'} \rVert^2) / \ell^2\bigr)^{-1/2}
         + \delta_{rr'} a^2 m(|t - t'| / \tau) + \delta_{tt'} \varepsilon^2 \Bigr].
 
     References

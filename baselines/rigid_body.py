@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import ClassVar, Self
 
 import numpy as np
@@ -11,24 +12,16 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.markers import marker_places
-from mocapbench.baselines.common.rigid import (
-    FEWEST,
-    find_rotations,
-    least_rotations,
-    spans_a_body,
-    steadiness,
-)
+from mocapbench.baselines.common.rigid import FEWEST, steadiness
 from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.interpolation import PchipImputer
-from mocapbench.baselines.kriging.marker_gap import fit_body
+from mocapbench.baselines.kriging.body import Body, to_room
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.mask_runs import runs
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["RigidBody"]
-
-Rotations = Callable[[Array, Array, Array], Array]
 
 _BESIDE = 15
 """Frames on both sides of a gap that show whether the others lie on a line."""
@@ -166,24 +159,18 @@ def _carry_through(
     others = np.flatnonzero(~np.isnan(beside).any(axis=(0, 2)) & (weights > 0.0))
     if len(others) < FEWEST or not edges:
         return None
-    shares = weights[others] / weights[others].sum()
     near = places[max(gap[0] - _BESIDE, 0) : gap[-1] + _BESIDE + 1, others]
-    _, _, shapes = fit_body(near[~np.isnan(near).any(axis=(1, 2))], shares)
-    rotate = find_rotations if spans_a_body(shapes, shares) else least_rotations
+    body = Body.fit(near[~np.isnan(near).any(axis=(1, 2))], weights[others])
+    after = places[np.ix_(gap, others)]
     carried = [
-        _carry_marker(
-            places[edge, others], places[gap][:, others], shares, places[edge, marker], rotate
-        )
-        for edge in edges
+        _carry_marker(body, places[edge, others], after, places[edge, marker]) for edge in edges
     ]
     share = np.interp(times[gap], times[edges], np.arange(len(edges)))[:, None]
     return np.asarray((1.0 - share) * carried[0] + share * carried[-1])
 
 
-def _carry_marker(
-    before: Array, after: Array, shares: Array, marker: Array, rotate: Rotations
-) -> Array:
+def _carry_marker(body: Body, before: Array, after: Array, marker: Array) -> Array:
     """Return where motions from ``before`` (K, 3) to ``after`` (T, K, 3) take a marker."""
-    start, ends = shares @ before, shares @ after
-    rotations = rotate(before - start, after - ends[:, None], shares)
-    return np.asarray(np.einsum("tij,i->tj", rotations, marker - start) + ends)
+    start = body.weights @ before
+    rotations, ends, _ = replace(body, shape=before - start).see(after)
+    return to_room(np.broadcast_to(marker - start, ends.shape), rotations, ends)

@@ -23,8 +23,9 @@ class DescribedFrames:
 
     Parameters
     ----------
-    description : ndarray of shape (n, F)
-        φ, with a mean square of 1, summed over F; zero where nothing describes frames.
+    description : ndarray of shape (n, F) or (n, P, F)
+        Of P parts, if there are several, each with a mean square of 1, summed over F; zero where
+        nothing describes frames.
     times : ndarray of shape (n,)
         In frames or in seconds, within each recording.
     recording : ndarray of int, shape (n,)
@@ -88,8 +89,14 @@ def choose_near(frames: DescribedFrames, wanted: DescribedFrames, own: int, most
     mine = frames.recording == own
     others = np.flatnonzero(~mine)
     if len(others) > most:
-        asking = wanted.at(choose_evenly(wanted.recording, _ASKING)).description
-        apart = euclidean_distances(asking, frames.at(others).description, squared=True)
+        asking = wanted.at(choose_evenly(wanted.recording, _ASKING))
+        apart = euclidean_distances(
+            *(
+                each.description.reshape(len(each.times), -1)
+                for each in (asking, frames.at(others))
+            ),
+            squared=True,
+        )
         nearest = np.argsort(apart, axis=1, kind="stable")
         others = others[pd.unique(nearest.T.ravel())[:most]]
     return np.sort(np.concatenate([np.flatnonzero(mine), others]))

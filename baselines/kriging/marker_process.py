@@ -5,14 +5,17 @@ The covariance of frames t and t' of recordings r and r', up to scale, is
 .. math::
 
     1 + \delta_{rr'} + \Bigl(1 + \frac{\lVert \phi_t - \phi_{t'} \rVert^2}{\ell^2}\Bigr)^{-1/2}
+    + \Bigl(1 + \frac{\lVert \phi_t - \phi_{t'} \rVert^2
+    + w^2 \lVert \chi_t - \chi_{t'} \rVert^2}{\ell^2}\Bigr)^{-1/2}
     + \delta_{rr'}\, a^2\, m\Bigl(\frac{|t - t'|}{\tau}\Bigr) + \delta_{tt'}\, \varepsilon^2 :
 
 a constant, another one for each recording, what follows from the shape :math:`\phi` of the markers
-around, a drift with Matérn's once differentiable kernel m, and noise. :math:`\ell, a, \tau,
-\varepsilon` are those that predict gaps best, twice as long as the one to fill, that are held out
-of what is visible (`held_out_stretches`). Each such gap counts as one frame, since its frames err
-together, and logarithms have normal priors with standard deviation 1. The scale is inferred from G
-gaps, so that predictions are Student's t with G degrees of freedom.
+around, what follows from this and from its changes :math:`\chi` together, with w = 0.3, a drift
+with Matérn's once differentiable kernel m, and noise. :math:`\ell, a, \tau, \varepsilon` are those
+that predict gaps best, twice as long as the one to fill, that are held out of what is visible
+(`held_out_stretches`). Each such gap counts as one frame, since its frames err together, and
+logarithms have normal priors with standard deviation 1. The scale is inferred from G gaps, so that
+predictions are Student's t with G degrees of freedom.
 """
 
 from __future__ import annotations
@@ -40,9 +43,11 @@ __all__ = ["FramePairs", "learn_marker_process", "predict_marker"]
 
 
 _TYPICAL: Array = np.log([2.0, 0.3, 0.25, 0.05])
-"""Medians of the priors: ℓ where shapes have variance 1, a, τ in seconds, and ε."""
-_CONSTANTS = 2.0
-"""The variance of both constants."""
+"""Medians of the priors: ℓ where shapes and changes have variance 1, a, τ in seconds, and ε."""
+_CHANGES = 0.3
+"""w. A variance of what follows from changes that is learnt grows without end in long gaps."""
+_CONSTANTS, _SHAPES = 2.0, 2.0
+"""The variances of both constants, and of both parts that follow from shapes."""
 _LEAST_SCALE = 1e-6
 
 
@@ -52,8 +57,8 @@ class FramePairs:
 
     Parameters
     ----------
-    distances : ndarray of shape (n, m)
-        Squared, between their shapes.
+    distances, changes : ndarray of shape (n, m)
+        Squared distances between their shapes, and between the changes of these.
     lags : ndarray of shape (n, m)
         In seconds.
     together : ndarray of bool, shape (n, m)
@@ -61,36 +66,47 @@ class FramePairs:
     """
 
     distances: Array
+    changes: Array
     lags: Array
     together: NDArray[np.bool_]
 
     @classmethod
     def of(cls, one: DescribedFrames, other: DescribedFrames) -> Self:
-        """Relate frames to others."""
+        """Relate frames to others; descriptions (n, 1 + L, F) are shapes and L changes of each."""
         return cls(
-            cdist(one.description, other.description, "sqeuclidean"),
+            cdist(one.description[:, 0], other.description[:, 0], "sqeuclidean"),
+            cdist(_list_changes(one), _list_changes(other), "sqeuclidean"),
             np.abs(np.subtract.outer(one.times, other.times)),
             np.equal.outer(one.recording, other.recording),
         )
 
     def covariance(self, parameters: Array) -> Array:
-        """Return the covariance (n, m), noise left out; parameters are logarithms of ℓ, a, τ, ε."""
+        """Return the covariance (n, m), noise left out, given the logarithms of ℓ, a, τ and ε."""
         length, drift, duration, _ = np.exp(parameters)
-        shape = 1.0 / np.sqrt(1.0 + self.distances / length**2)
+        shape, changing = (1.0 / np.sqrt(1.0 + squares) for squares in self._squares(length))
         course = drift**2 * Matern32().value(self.lags, duration)
-        return np.asarray(1.0 + shape + self.together * (1.0 + course))
+        return np.asarray(1.0 + shape + changing + self.together * (1.0 + course))
 
     def derivatives(self, parameters: Array) -> list[Array]:
         """Return those of the covariance by the logarithms of ℓ, a and τ."""
         length, drift, duration, _ = np.exp(parameters)
-        squares = self.distances / length**2
+        shape, changing = self._squares(length)
         kernel = Matern32()
-        # ∂(1 + s)^(−1/2) / ∂ log ℓ = s (1 + s)^(−3/2), with s = ‖φ − φ'‖² / ℓ².
+        # ∂(1 + s)^(−1/2) / ∂ log ℓ = s (1 + s)^(−3/2), where s is in proportion to ℓ⁻².
         return [
-            squares * (1.0 + squares) ** -1.5,
+            shape * (1.0 + shape) ** -1.5 + changing * (1.0 + changing) ** -1.5,
             self.together * 2.0 * drift**2 * kernel.value(self.lags, duration),
             self.together * drift**2 * kernel.gradient(self.lags, duration),
         ]
+
+    def _squares(self, length: float) -> tuple[Array, Array]:
+        """Return squared distances over ℓ² of shapes, and of shapes and changes together."""
+        shape = self.distances / length**2
+        return shape, shape + _CHANGES**2 * self.changes / length**2
+
+
+def _list_changes(frames: DescribedFrames) -> Array:
+    return frames.description[:, 1:].reshape(len(frames.times), -1)
 
 
 def learn_marker_process(
@@ -129,6 +145,6 @@ def predict_marker(
     covariance, cross = add_noise(known, parameters), across.covariance(parameters)
     mean, explained = predict_frames(covariance, cross, values)
     _, drift, _, noise = np.exp(2.0 * parameters)
-    # K(t, t): the constants, 1 for the shape, a² for the drift, and ε².
-    total = _CONSTANTS + 1.0 + drift + noise
+    # K(t, t): the constants, both parts of shapes, a² for the drift, and ε².
+    total = _CONSTANTS + _SHAPES + drift + noise
     return mean, scale * np.maximum(total - explained, noise)

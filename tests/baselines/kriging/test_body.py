@@ -3,9 +3,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from mocapbench.baselines.kriging.marker_gap import fit_body, to_body, to_room
+from mocapbench.baselines.kriging.body import Body, to_body, to_room
 
 seeds = st.integers(0, 2**16)
+
+
+def see(places, weights):
+    return Body.fit(places, weights).see(places)
 
 
 def moving(seed, n_markers=5):
@@ -19,7 +23,7 @@ def moving(seed, n_markers=5):
 @given(seed=seeds)
 def test_what_moves_with_the_body_stands_still_as_seen_from_it(seed):
     places = moving(seed)
-    rotations, centres, shapes = fit_body(places[:, 1:], np.arange(1.0, 5.0))
+    rotations, centres, shapes = see(places[:, 1:], np.arange(1.0, 5.0))
     seen = to_body(places[:, 0], rotations, centres)
     np.testing.assert_allclose(seen, seen[[0]].repeat(12, axis=0), atol=1e-6)
     np.testing.assert_allclose(shapes, shapes[[0]].repeat(12, axis=0), atol=1e-6)
@@ -28,7 +32,7 @@ def test_what_moves_with_the_body_stands_still_as_seen_from_it(seed):
 @given(seed=seeds)
 def test_seeing_and_going_back_are_inverse(seed):
     places = moving(seed) + np.random.default_rng(seed).normal(size=(12, 5, 3))
-    rotations, centres, shapes = fit_body(places[:, 1:], np.ones(4))
+    rotations, centres, shapes = see(places[:, 1:], np.ones(4))
     seen, some = to_body(places[:, 0], rotations, centres), np.array([3, 7])
     back = to_room(seen[some], rotations[some], centres[some])
     np.testing.assert_allclose(back, places[some, 0], atol=1e-9)
@@ -38,5 +42,13 @@ def test_seeing_and_going_back_are_inverse(seed):
 
 def test_the_shapes_have_their_weighted_centre_in_the_body():
     weights = np.array([1.0, 2.0, 3.0, 4.0])
-    _, _, shapes = fit_body(np.random.default_rng(0).normal(size=(12, 4, 3)), weights)
+    _, _, shapes = see(np.random.default_rng(0).normal(size=(12, 4, 3)), weights)
     np.testing.assert_allclose(np.einsum("k,tki->ti", weights, shapes), 0.0, atol=1e-12)
+
+
+@given(seed=seeds)
+def test_a_frame_is_seen_alike_whatever_others_it_is_seen_with(seed):
+    places = moving(seed) + np.random.default_rng(seed).normal(size=(12, 5, 3))
+    body = Body.fit(places, np.ones(5))
+    for part, parts in zip(body.see(places[3:5]), body.see(places), strict=True):
+        np.testing.assert_allclose(part, parts[3:5], atol=1e-9)

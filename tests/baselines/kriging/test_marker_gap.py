@@ -73,3 +73,26 @@ def test_three_others_and_two_frames_that_show_the_marker_beside_them_fill_a_gap
         power=1.0,
     )
     assert gap.can_be_filled is (n_others >= 3 and n_seen >= 2)
+
+
+@pytest.mark.parametrize("unseen", [[], [49, 90], [*range(0, 300, 7)]])
+@pytest.mark.parametrize(
+    ("first", "rate"), [(0, 30.0), (50, 30.0), (260, 30.0), (50, 120.0), (50, 6.0)]
+)
+def test_how_the_shape_changes_tells_what_the_shape_alone_does_not(unseen, first, rate):
+    """Bending and stretching pass through the same shapes, with the marker on other sides."""
+    times = np.arange(300) / rate
+    phase = 1.0 + 6.0 * times + 0.3 * np.sin(times)
+    places = np.random.default_rng(0).normal(size=(1, 6, 3)).repeat(300, axis=0)
+    places[:, 1, 0] += 0.3 * np.cos(phase)
+    places[:, 0, 1] += 0.3 * np.sin(phase)
+    gap = np.arange(first, first + 40)
+    hidden = places[gap, 0]
+    shown = places.copy()
+    shown[unseen, 1] = np.nan
+    shown[gap] = places[gap]
+    shown[gap, 0] = np.nan
+    steady = np.ones(5)
+    filled, _ = MarkerGap([times], [shown], 0, gap, np.arange(1, 6), steady, power=1.0).fill()
+    # By the shape alone the marker would be half way, up to 0.3 from where it is.
+    np.testing.assert_allclose(filled, hidden, atol=0.1)

@@ -16,13 +16,15 @@ def frames(seed=0):
     rng = np.random.default_rng(seed)
     phase = np.cumsum(rng.uniform(0.0, 0.3, N_FRAMES))
     shapes = np.column_stack([np.sin(phase), np.cos(phase)])
+    changes = np.column_stack([np.cos(phase), -np.sin(phase)])
+    parts = np.stack([shapes, 0.5 * changes, 0.3 * shapes], axis=1)
     times = np.concatenate([np.arange(60), np.arange(30)]) / 30
-    return DescribedFrames(shapes, times, np.repeat([0, 4], [60, 30]))
+    return DescribedFrames(parts, times, np.repeat([0, 4], [60, 30]))
 
 
 def values(given, noise, seed=1):
     """Return where a marker is (N, 3) that follows the shape."""
-    sines, cosines = given.description.T
+    sines, cosines = given.description[:, 0].T
     clean = np.column_stack([sines, cosines**2, sines * cosines])
     rough = clean + noise * np.random.default_rng(seed).normal(size=clean.shape)
     rough = rough - rough.mean(axis=0)
