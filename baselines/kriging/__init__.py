@@ -14,6 +14,6 @@ Processes whose parameters best predict what is held out:
 * `stacked`: the frames of several recordings, and which channels say most of others;
   `channel_process`: the process of channels that others show; `stances`: where markers stand and
   face, taken out before;
-* `marker_gap`: a gap of a marker, seen from a body that moves with others; `marker_process`: the
-  process of where it is.
+* `body`: a body that moves with markers; `marker_gap`: a gap of a marker, seen from it;
+  `marker_process`: the process of where it is.
 """
