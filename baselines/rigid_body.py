@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import ClassVar, Self
 
 import numpy as np
@@ -15,7 +14,7 @@ from mocapbench.baselines.common.markers import marker_places
 from mocapbench.baselines.common.rigid import FEWEST, steadiness
 from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.interpolation import PchipImputer
-from mocapbench.baselines.kriging.body import Body, to_room
+from mocapbench.baselines.kriging.body import MarkerBody, to_room
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.mask_runs import runs
@@ -160,7 +159,7 @@ def _carry_through(
     if len(others) < FEWEST or not edges:
         return None
     near = places[max(gap[0] - _BESIDE, 0) : gap[-1] + _BESIDE + 1, others]
-    body = Body.fit(near[~np.isnan(near).any(axis=(1, 2))], weights[others])
+    body = MarkerBody.fit(near[~np.isnan(near).any(axis=(1, 2))], weights[others])
     after = places[np.ix_(gap, others)]
     carried = [
         _carry_marker(body, places[edge, others], after, places[edge, marker]) for edge in edges
@@ -169,8 +168,8 @@ def _carry_through(
     return np.asarray((1.0 - share) * carried[0] + share * carried[-1])
 
 
-def _carry_marker(body: Body, before: Array, after: Array, marker: Array) -> Array:
+def _carry_marker(body: MarkerBody, before: Array, after: Array, marker: Array) -> Array:
     """Return where motions from ``before`` (K, 3) to ``after`` (T, K, 3) take a marker."""
     start = body.weights @ before
-    rotations, ends, _ = replace(body, shape=before - start).see(after)
+    rotations, ends, _ = MarkerBody(before - start, body.weights, body.rotate).see(after)
     return to_room(np.broadcast_to(marker - start, ends.shape), rotations, ends)

@@ -9,7 +9,6 @@ rotation about it; the body then follows the line, and does not rotate about it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -17,15 +16,14 @@ import numpy as np
 from mocapbench.baselines.common.rigid import find_rotations, least_rotations, spans_a_body
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Body", "to_body", "to_room"]
+__all__ = ["MarkerBody", "to_body", "to_room"]
 
 
 _ROUNDS = 3
 """Times that the mean shape is fitted anew; it hardly moves after the first."""
 
 
-@dataclass(frozen=True, eq=False)
-class Body:
+class MarkerBody:
     """A shape that markers hold.
 
     Parameters
@@ -38,9 +36,12 @@ class Body:
         Returns the rotations from the shape to markers, as `find_rotations` does.
     """
 
-    shape: Array
-    weights: Array
-    rotate: Callable[[Array, Array, Array], Array]
+    def __init__(
+        self, shape: Array, weights: Array, rotate: Callable[[Array, Array, Array], Array]
+    ) -> None:
+        self.shape: Array = shape
+        self.weights: Array = weights
+        self.rotate: Callable[[Array, Array, Array], Array] = rotate
 
     @classmethod
     def fit(cls, places: Array, weights: Array) -> Self:
@@ -50,9 +51,9 @@ class Body:
         body = cls(around - weights @ around, weights, find_rotations)
         for _ in range(_ROUNDS):
             *_, shapes = body.see(places)
-            body = replace(body, shape=shapes.mean(axis=0))
+            body = cls(shapes.mean(axis=0), weights, find_rotations)
         fixed = spans_a_body(shapes, weights)
-        return body if fixed else replace(body, rotate=least_rotations)
+        return body if fixed else cls(body.shape, weights, least_rotations)
 
     def see(self, places: Array) -> tuple[Array, Array, Array]:
         """Find the body in frames in which markers are at ``places`` (T, K, 3).

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from mocapbench.baselines.common.rigid import FEWEST
-from mocapbench.baselines.kriging.body import Body, to_body, to_room
+from mocapbench.baselines.kriging.body import MarkerBody, to_body, to_room
 from mocapbench.baselines.kriging.described_frames import (
     DescribedFrames,
     choose_evenly,
@@ -106,7 +106,7 @@ class MarkerGap:
         process = learn_marker_process(frames.at(known[some]), values[some], self._seconds)
         return predict_marker(frames.at(known), values, frames.at(wanted), *process)
 
-    def _list_changes(self, body: Body, shapes: Array) -> Iterator[Array]:
+    def _list_changes(self, body: MarkerBody, shapes: Array) -> Iterator[Array]:
         """Yield how other shapes (n, K, 3) were before, and will be after.
 
         What is known on one side only goes on evenly on the other; 0 where nothing is known.
@@ -115,7 +115,7 @@ class MarkerGap:
         for changes, others in ((before, after), (after, before)):
             yield np.nan_to_num(np.where(np.isnan(changes), -others, changes))
 
-    def _see_changes(self, body: Body, shapes: Array, way: int) -> Array:
+    def _see_changes(self, body: MarkerBody, shapes: Array, way: int) -> Array:
         """Return how other shapes are `_AROUND` earlier (-1) or later (1); NaN where unknown."""
         beside = self._find_beside(way)
         places = self._stack(beside)[:, 1:]
@@ -183,8 +183,8 @@ class MarkerGap:
         frames = self._describe_frames(rows, shapes[:, None])
         return choose_near(frames.at(known), frames.at(wanted), 0, _OTHERS)
 
-    def _fit_body(self, stacked: Array) -> Body:
-        return Body.fit(stacked[:, 1:], self.steady**self.power)
+    def _fit_body(self, stacked: Array) -> MarkerBody:
+        return MarkerBody.fit(stacked[:, 1:], self.steady**self.power)
 
     def _find_complete_frames(self, number: int) -> Index:
         places = self.places[number][:, [self.marker, *self.others]]

@@ -31,18 +31,17 @@ _LOOKS = 50
 class _Jobs(TaskManager):
     """Pebble's, by a clock that never jumps."""
 
-    def task_start(self, task_id: int, worker_id: int | None) -> None:
-        """Do what pebble does, and note when the job started."""
-        job = self.tasks.get(task_id)
-        super().task_start(task_id, worker_id)
-        if job is not None:
-            job.timestamp = time.monotonic()
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        self._since: dict[int, float] = {}
 
-    @staticmethod
-    def timeout(task: Task) -> bool:
-        """Whether a job has lasted for longer than it may."""
-        limit = float("inf") if task.timeout is None else task.timeout
-        return task.started and time.monotonic() - task.timestamp > limit
+    def timeout_tasks(self) -> tuple[Task, ...]:
+        """Return jobs that have lasted for longer than they may since they were seen to run."""
+        now = time.monotonic()
+        tasks = self.tasks.copy().values()
+        running = [(task, task.timeout) for task in tasks if task.timeout and task.started]
+        self._since = {task.id: self._since.get(task.id, now) for task, _ in running}
+        return tuple(task for task, most in running if now - self._since[task.id] > most)
 
 
 class _Manager(PoolManager):

@@ -3,13 +3,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from mocapbench.baselines.kriging.body import Body, to_body, to_room
+from mocapbench.baselines.kriging.body import MarkerBody, to_body, to_room
 
 seeds = st.integers(0, 2**16)
 
 
 def see(places, weights):
-    return Body.fit(places, weights).see(places)
+    return MarkerBody.fit(places, weights).see(places)
 
 
 def moving(seed, n_markers=5):
@@ -49,6 +49,6 @@ def test_the_shapes_have_their_weighted_centre_in_the_body():
 @given(seed=seeds)
 def test_a_frame_is_seen_alike_whatever_others_it_is_seen_with(seed):
     places = moving(seed) + np.random.default_rng(seed).normal(size=(12, 5, 3))
-    body = Body.fit(places, np.ones(5))
+    body = MarkerBody.fit(places, np.ones(5))
     for part, parts in zip(body.see(places[3:5]), body.see(places), strict=True):
         np.testing.assert_allclose(part, parts[3:5], atol=1e-9)
