@@ -57,6 +57,7 @@ def figures(
         ),
     ] = None,
     tasks: Names = None,
+    cases: Names = None,
     models: Names = None,
     metrics: Names = None,
     formats: Annotated[
@@ -78,6 +79,7 @@ def figures(
     load_plugins(plugin)
     named = {"kinds": split(kinds), "tasks": split(tasks), "models": split(models)}
     named |= {"metrics": split(metrics), "format": split(formats) or ("pdf",)}
+    named["cases"] = tuple(cases or ())
     _require_drawable(named, style)
     size, folder = _read_size(style, width), to or run / "figures"
     store, console = bench.RunDirectory(run), LiteralConsole()
@@ -127,13 +129,14 @@ def _bundle_run(
     archive = open_archive(data_dir, task_files)
     whole = bench.bundle(records, store.load_plan()["provenance"])
     tasks = bench.find_tasks(whole, named["tasks"])
+    cases = bench.find_cases(whole, named["cases"])
     labels = bench.find_labels(whole, named["models"])
     bench.find_metrics(whole, named["metrics"])
     shown = [record for record in records if record.address.task in tasks]
     kinds = named["kinds"] or [*reports.FIGURE_KINDS]
     wanted = any(reports.FIGURE_KINDS[kind].shows_pictures for kind in kinds)
     chosen = replace(
-        reports.select_results(whole, tasks, labels=labels),
+        reports.select_results(whole, tasks, cases, labels),
         illustrations=bench.illustrations(shown, store, archive) if wanted else (),
         parts=bench.error_parts(shown, archive),
     )

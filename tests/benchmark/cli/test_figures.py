@@ -69,6 +69,15 @@ def test_the_numbers_are_those_of_the_table_for_a_paper(cli, run, tmp_path):
     assert len(drawn[drawn["panel"] == "test 1"]) == 18
 
 
+def test_cases_that_are_named_are_drawn_alone_also_by_the_command_beside(cli, run, tmp_path):
+    chosen = ("--kinds", "error-bars", "--cases", "*2", "--to", tmp_path)
+    assert cli("figures", run, *chosen) == 0
+    drawn = pd.read_csv(tmp_path / f"{TASK}-error-bars-mse.csv")
+    assert {*drawn["panel"]} == {"test 2"}
+    text = (tmp_path / f"{TASK}-error-bars-mse.txt").read_text(encoding="utf-8")
+    assert "--cases=*2" in shlex.split(text.strip().splitlines()[-1])
+
+
 def test_a_model_has_the_same_colour_beside_all_others_and_alone(cli, run, tmp_path):
     given = ("--kinds", "error-bars", "--format", "svg")
     for name, models in (("all", LABELS), ("one", LABELS[1:2])):
@@ -91,6 +100,7 @@ def test_a_model_has_the_same_colour_beside_all_others_and_alone(cli, run, tmp_p
         (("--width", "1mm"), "expected a width from 2.54cm to 152cm"),
         (("--width", "-8cm"), "expected a width from 2.54cm"),
         (("--tasks", "toy"), f"unknown task of this run 'toy': known: {TASK}"),
+        (("--cases", "test 3"), "unknown case of this run 'test 3': did you mean test 2 or test 1"),
         (("--models", "kn"), "unknown model of this run 'kn': did you mean knn"),
         (("--metrics", "mes"), "unknown metric of this run 'mes'.*mse"),
         (("--kinds", "calibration"), "no data for any figure of what is chosen"),
