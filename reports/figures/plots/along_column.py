@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -16,7 +16,14 @@ from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
 from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels, choose_metrics
-from mocapbench.reports.figures.plots.look import Styles, fit_axis, scale_mark, scales_of, wrap_text
+from mocapbench.reports.figures.plots.look import (
+    Styles,
+    fit_axis,
+    fit_count_axis,
+    scale_mark,
+    scales_of,
+    wrap_text,
+)
 from mocapbench.reports.figures.scores.along import N_BANDS, group_cases
 
 __all__ = ["AlongColumn"]
@@ -76,14 +83,21 @@ class AlongColumn(Plot):
         )
         plot.theme({}).on(axes).plot()
         fit_axis(axes, "y", panel["mean"])
-        fit_axis(axes, "x", panel["x"])
-        ticks = sorted({*panel["x"]})
-        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        self._fit_column(axes, panel["x"])
         axes.set(
             xlabel=self.title,
             ylabel=panel["quantity"].iloc[0],
             title=wrap_text(panel["panel"].iloc[0]),
         )
+
+    def _fit_column(self, axes: Axes, places: Iterable[float]) -> None:
+        """Let the horizontal axis show the column, with a tick at each place."""
+        shown = sorted({*places})
+        if 0.0 in shown:
+            fit_count_axis(axes, shown)
+        else:
+            fit_axis(axes, "x", shown)
+            axes.set_xticks(shown, [f"{place:g}" for place in shown])
 
     def height(self, panel: pd.DataFrame, width: float) -> float:
         """Return a height in proportion to the width."""

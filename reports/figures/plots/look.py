@@ -15,7 +15,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mocapbench.reports.figures.scale import LogScale, fit_linear_scale, fit_scale
+from mocapbench.reports.figures.scale import (
+    LogScale,
+    fit_count_scale,
+    fit_linear_scale,
+    fit_scale,
+)
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.resources import styles as read_style_sheets
 
@@ -29,6 +34,7 @@ __all__ = [
     "colour_of",
     "dashes_of",
     "fit_axis",
+    "fit_count_axis",
     "fit_legend",
     "legend_handles",
     "level_colours",
@@ -137,6 +143,15 @@ def fit_axis(axes: Axes, name: str, values: Iterable[float], ends: Iterable[floa
     else:
         scale = fit_linear_scale([*known, *ends], 0.0, 1.0)
     axes.set(**{f"{name}lim": (scale.low, scale.high)})
+
+
+def fit_count_axis(axes: Axes, counts: Iterable[float]) -> None:
+    """Let the horizontal axis show counts from zero, logarithmic but for that, each at a tick."""
+    shown = sorted({*counts})
+    scale = fit_count_scale(shown, 0.0, 1.0)
+    axes.set_xscale("function", functions=(scale.forward, scale.backward))
+    axes.set_xticks(shown, [f"{count:g}" for count in shown])
+    axes.set_xlim(scale.low, scale.high)
 
 
 def shorten_labels(table: pd.DataFrame, styles: Styles) -> tuple[pd.DataFrame, Styles]:

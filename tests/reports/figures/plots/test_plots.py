@@ -113,6 +113,19 @@ def test_numbers_on_axes_are_those_of_the_table(whole, kind):
                 assert has_all(numbers_of(axes), panel[column].to_numpy(float)), column
 
 
+def test_numbers_of_recordings_stand_apart_by_their_ratios_and_zero_beside_them():
+    curve = {0.0: 5.0, 3.0: 4.0, 10.0: 3.0, 30.0: 2.5, 100.0: 2.0}
+    rows = [("", "cm", "knn", x, mean, mean - 1, mean + 1) for x, mean in curve.items()]
+    names = ["panel", "quantity", "label", "x", "mean", "low", "high"]
+    axes = Figure((3.3, 3.0)).subplots()
+    FIGURE_KINDS["recordings"].draw(
+        axes, pd.DataFrame(rows, columns=names), {"knn": DrawingStyle("h1", 0, "knn")}
+    )
+    ticks = axes.get_xticks()
+    assert [*ticks] == [0, 3, 10, 30, 100]
+    assert np.diff(axes.transData.transform(np.column_stack([ticks, ticks]))[:, 0]).min() > 25
+
+
 @each_kind
 def test_the_table_is_read_back_from_its_file(whole, kind, tmp_path):
     for name, table in tables_of(whole, kind).items():
