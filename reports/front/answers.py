@@ -84,17 +84,24 @@ def _find(results: TaskResults) -> list[Finding]:
     ]
     whole = [(results.layout.page.short + _mark_generated(results), None)]
     rivals = _leave_out_choosers(results)
-    found = [(text, standings(rivals, metric, cases)) for text, cases in asked or whole]
-    better = _find_better(results)
+    found = [(text, cases, standings(rivals, metric, cases)) for text, cases in asked or whole]
     return [
-        (results, text, ranked, better.get(ranked[0].label, "")) for text, ranked in found if ranked
+        (results, text, ranked, _find_better(_keep_cases(results, cases), ranked[0].label))
+        for text, cases, ranked in found
+        if ranked
     ]
 
 
-def _find_better(results: TaskResults) -> Mapping[str, str]:
-    """Return the task's reference and its mean, for each label that is no better over all cases."""
+def _keep_cases(results: TaskResults, cases: Sequence[CaseLayout] | None) -> TaskResults:
+    """Return the results of some cases, of all if none are named."""
+    kept = results.layout.cases if cases is None else tuple(cases)
+    return replace(results, layout=replace(results.layout, cases=kept))
+
+
+def _find_better(results: TaskResults, label: str) -> str:
+    """Return the reference and its mean if a label is no better over all cases; else nothing."""
     cells, name = board_cells(results), reference_of(results)
-    return {label: f"{name}, {cells[name].text}" for label, c in cells.items() if name and c.beaten}
+    return f"{name}, {cells[name].text}" if name and cells[label].beaten else ""
 
 
 def _leave_out_choosers(results: TaskResults) -> TaskResults:

@@ -292,6 +292,15 @@ def test_a_leader_that_is_no_better_than_the_reference_is_told(small):
     assert answers([results_of(small({"row": {"a": [NAN]}}))]) == []
 
 
+def test_the_reference_is_compared_in_the_case_that_a_sentence_is_about(small):
+    rows = {"x": {"a": [1.0], "replay": [2.0]}, "y": {"a": [3.0], "replay": [2.5]}}
+    (answer,) = answers([results_of(small(rows, asks={"x": "Arms", "y": "Legs"}))])
+    assert [text for _, _, text in answer["findings"]] == [
+        "a 1.00",
+        "a 3.00; no better than replay, 2.50",
+    ]
+
+
 def test_the_line_of_trust_counts_what_ran_and_what_is_missing(small):
     bundle = small({"x": {"a": [1.0, NAN], "b": [1.0, 1.0]}, "y": {"a": [NAN], "b": [NAN]}})
     bundle = replace(bundle, provenance={"profile": "quick", "wall time": "3 s", "seed": "0"})
