@@ -12,7 +12,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
-from mocapbench.basics.deadline import count_seconds_left
+from mocapbench.basics.deadline import DEADLINE, count_seconds_left, find_deadline
 from mocapbench.basics.system.choice import find_system
 from mocapbench.basics.words import printable
 
@@ -67,7 +67,8 @@ def run_program(
     seconds = max(0.0, _SHARE * left, left - _RESERVE)
     system = find_system()
     told = f"{min(seconds, system.find_work_limit()):.1f}"
-    with _start([*words, str(files)], folder, {**variables, SECONDS: told}) as (process, speech):
+    limits = {SECONDS: told, DEADLINE: find_deadline(seconds)}
+    with _start([*words, str(files)], folder, {**variables, **limits}) as (process, speech):
         excess = _watch(process, called, seconds)
     said = _quote(speech.read())
     if excess is not None:

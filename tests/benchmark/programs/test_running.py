@@ -78,6 +78,14 @@ def test_it_is_told_how_long_it_has_and_is_stopped_before_its_process_is(shell, 
     assert (tmp_path / "told").read_text() == "2.7\n"
 
 
+def test_it_is_told_when_it_is_stopped_by_the_clock(shell, tmp_path, monkeypatch):
+    monkeypatch.setenv("MOCAPBENCH_DEADLINE", repr(time.monotonic() + 100.0))
+    shell('echo "$MOCAPBENCH_SECONDS $MOCAPBENCH_DEADLINE" > told')
+    seconds, deadline = map(float, (tmp_path / "told").read_text().split())
+    assert seconds == pytest.approx(deadline - time.monotonic(), abs=5.0)
+    assert seconds < 95.1
+
+
 def test_without_a_limit_it_has_endless_time(shell, tmp_path, monkeypatch):
     # Of other tests a limit may be left in this process, which it cannot undo.
     endless = (resource.RLIM_INFINITY,) * 2

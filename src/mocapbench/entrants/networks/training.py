@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import _thread
 import copy
 import os
 import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -25,6 +27,8 @@ _SHARE, _OF_CLOCK = 0.5, 0.8
 
 On a machine that has a core for it the first are spent first, or neither.
 """
+_LOOK = 0.1
+"""Seconds after which its time is looked at again."""
 _MOST_STEPS, _EVERY, _PATIENCE = 4_000, 25, 6
 """Steps at the most; after how many held-out windows are looked at; and how often in vain."""
 _WARM_UP = 50
@@ -44,30 +48,27 @@ def seed_everything() -> np.random.Generator:
 @contextmanager
 def limit_time() -> Iterator[None]:
     """End what is done in the context once this process has taken its share of the time."""
-    seconds = min(1e7, float(os.environ["MOCAPBENCH_SECONDS"]))
-    timers = (
-        (signal.SIGPROF, signal.ITIMER_PROF, _SHARE * seconds - time.process_time()),
-        (signal.SIGALRM, signal.ITIMER_REAL, _OF_CLOCK * seconds - _count_seconds()),
-    )
-
-    def stop(number: int, _: object) -> None:
-        name = signal.Signals(number).name
-        print(f"stopped by {name}: with more time it may learn more", file=sys.stderr)
-        raise KeyboardInterrupt
-
-    for number, timer, left in timers:
-        signal.signal(number, stop)
-        signal.setitimer(timer, max(left, 0.01))  # as 0 would be no end
+    ended = threading.Event()
+    watcher = threading.Thread(target=_watch_time, args=(ended,), daemon=True)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # in the background it is ignored
+    watcher.start()
     with suppress(KeyboardInterrupt):
         yield
-    for _, timer, _ in timers:
-        signal.setitimer(timer, 0)
+        ended.set()
+        watcher.join()
 
 
-def _count_seconds() -> float:
-    """Return how long this process runs, whose imports alone may take half a minute."""
-    ticks = Path("/proc/self/stat").read_text().rpartition(")")[2].split()[19]
-    return time.clock_gettime(time.CLOCK_BOOTTIME) - int(ticks) / os.sysconf("SC_CLK_TCK")
+def _watch_time(ended: threading.Event) -> None:
+    """Interrupt what the process does when its share is taken, unless it has ended."""
+    seconds = min(1e7, float(os.environ["MOCAPBENCH_SECONDS"]))
+    deadline = float(os.environ.get("MOCAPBENCH_DEADLINE", "inf"))
+    while not ended.wait(_LOOK):
+        late = deadline - time.monotonic() < (1.0 - _OF_CLOCK) * seconds
+        if late or time.process_time() > _SHARE * seconds:
+            spent = "time by the clock" if late else "processor time"
+            print(f"stopped by its {spent}: with more it may learn more", file=sys.stderr)
+            _thread.interrupt_main()
+            return
 
 
 def train_network(
