@@ -77,8 +77,7 @@ class BestOf(Imputer, Inductive):
     References
     ----------
     L. Breiman (1996), Stacked regressions, *Machine Learning* 24:49–64, for the weights. The
-    evidence and the shrinkage are not from a publication: ``docs/calibration.md`` has what was
-    tried.
+    evidence and the shrinkage are not from a publication.
 
     Examples
     --------

@@ -75,7 +75,7 @@ class MarkerKriging(Imputer, Inductive):
 
     References
     ----------
-    Not from a publication. ``docs/filling.md`` has what was tried. The errors of what is held out
+    Not from a publication; ``docs/contests.md`` has what was tried. The errors of what is held out
     are those of C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for Machine
     Learning, MIT Press, §5.4.2.
 

@@ -69,8 +69,7 @@ class RigidBody(Imputer, Inductive):
     References
     ----------
     W. Kabsch (1976), A Solution for the Best Rotation to Relate Two Sets of Vectors, *Acta
-    Crystallographica* A32: the rotation. The weights are of this project; ``docs/filling.md`` has
-    what was tried.
+    Crystallographica* A32: the rotation. The weights are of this project.
 
     Examples
     --------

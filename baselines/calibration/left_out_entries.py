@@ -17,9 +17,7 @@ from mocapbench.datasets import Mask
 __all__ = ["leave_one_out_factors"]
 
 _NOMINAL = 200
-"""Entries of ratio 1 that count besides, before variances become smaller.
-
-``docs/calibration.md`` has the choice."""
+"""Entries of ratio 1 that count besides, before variances become smaller."""
 
 
 def leave_one_out_factors(visible: Mask, ratios: Array) -> Array:

@@ -50,7 +50,7 @@ _LEAST = 1e-4
 `error_ratios`, which bounds a mean: here it bounds four times the worst set."""
 STEEPEST = 0.6
 """Largest power of the distance by which ratios grow: what two short lengths say is noisy.
-``docs/calibration.md`` has the choice."""
+Chosen on recordings that are learnt from."""
 
 
 class VarianceCheck:

@@ -1,4 +1,4 @@
-"""Figures that `docs/results/filling.md` reports, all from training recordings but the last.
+"""Figures that `docs/results/published.md` reports.
 
 ::
 
@@ -7,6 +7,7 @@
     python docs/evidence/imputation.py frames  # channel-kriging, its learning frames drawn anew
     python docs/evidence/imputation.py headings # pose-kriging, the tests' motion turned about
     python docs/evidence/imputation.py others  # pose-kriging, walks of people who are not in it
+    python docs/evidence/imputation.py many    # pose-kriging, taught by all walks, or by strangers
 
 All but `walkers` use tests, those of `missing-frames` and `subject-35-missing` or walks of people
 who are in no training, which choose nothing.
@@ -56,6 +57,10 @@ Array = NDArray[np.float64]
 
 STARTS, WINDOWS = (0, 10, 20), (0, 3, 6, 9, 11)
 """Where fifty frames of a training walker begin, and which of the task's gaps are hidden there."""
+
+
+SIX = ("35_03", "16_21", "07_01", "07_02", "08_01", "08_02")
+"""The rows of the task that are walks of people who are not in its training."""
 
 
 def plain(model: PoseKriging) -> PoseKriging:
@@ -179,8 +184,7 @@ def _spread_anew(shift: np.random.Generator, places: Array, number: int) -> Arra
 
 def headings() -> None:
     """Print the scores of `PoseKriging` where the recording to fill is turned."""
-    rows = ("35-03", "16-21", "07-01", "07-02", "08-01", "08-02")
-    names = [f"{row} three-walkers" for row in rows]
+    names = [f"{row.replace('_', '-')} three-walkers" for row in SIX]
     for degrees in (0.0, 90.0, 180.0):
         problems = [_posed("missing-frames", name, fold) for name in names for fold in range(12)]
         scores = []
@@ -217,14 +221,50 @@ def others() -> None:
         print(f"{what}, {len(each)} people: {each.mean():.1f} ± {(high - low) / 2:.1f}")
 
 
+def _walks() -> Iterator[tuple[str, str]]:
+    """Yield the person and the address of all walks of people."""
+    people = read_people()
+    for uri in people.recordings:
+        if "walk" in people.shows(uri):
+            yield people.person(subject_of(uri)), uri
+
+
 def _walks_of_others() -> Iterator[tuple[str, str]]:
     """Yield the person and the address of all walks of people whom `missing-frames` lacks."""
-    people = read_people()
     known = {subject_of(uri) for uri in (*TRAINING, *(f"cmu:{test}" for test in TESTS))}
-    for uri in people.recordings:
-        person = people.person(subject_of(uri))
-        if "walk" in people.shows(uri) and person not in known:
-            yield person, uri
+    yield from ((person, uri) for person, uri in _walks() if person not in known)
+
+
+def many() -> None:
+    """Print scores of `PoseKriging` that learns from all other walks, or from those of others."""
+    for without, hold_out in {"the recording": _is_itself, "the person": _is_of_one}.items():
+        rows = [_score_taught(f"cmu:{test}", hold_out) for test in SIX]
+        print(f"without {without}:", np.round(np.mean(rows, axis=0), 3), flush=True)
+
+
+def _is_itself(one: str, other: str) -> bool:
+    return one == other
+
+
+def _is_of_one(one: str, other: str) -> bool:
+    people = read_people()
+    return people.person(subject_of(one)) == people.person(subject_of(other))
+
+
+def _score_taught(test: str, hold_out: Callable[[str, str], bool]) -> Array:
+    """Print and return the scores of a row of the task, of all of its windows."""
+    archive = bench.archive_at()
+    walks = [uri for _, uri in _walks() if not hold_out(uri, test)]
+    training = tuple(gpdm_features(archive.recording(uri)) for uri in walks)
+    start = gpdm_features(archive.recording(test)).frames(np.arange(N_TEST_FRAMES))
+    body = JointAngles(archive.skeleton(test))
+    problems = [hide_window(start, training, fold, body) for fold in range(N_WINDOWS)]
+    model = PoseKriging().fit(training)
+    outcomes = [_outcome(problem, model) for problem in problems]
+    names = ("rms_per_frame", "mpjpe", "coverage_95")
+    found = np.array([np.mean([METRICS.get(n)(one).value for one in outcomes]) for n in names])
+    print(test, f"{len(walks)} walks", np.round(found, 3), flush=True)
+    return found
 
 
 def _posed_anywhere(uri: str, training: tuple[Recording, ...]) -> Iterator[ImputeProblem]:
@@ -250,6 +290,7 @@ COMMANDS: Mapping[str, Callable[[], None]] = {
     "frames": frames,
     "headings": headings,
     "others": others,
+    "many": many,
 }
 
 if __name__ == "__main__":

@@ -67,6 +67,9 @@ PAGE = TaskPage(
         "The constants of pose-kriging have about the least error when each training walker is "
         "left out in turn. It alone uses that left and right take turns: it also learns from "
         "mirror images of walkers, by the names of channels.",
+        "Sharper and flatter weights of matched walkers, other priors of their blend, its "
+        "posterior as doubt, and rough paths alone did not err less for pose-kriging on recordings "
+        "that it learns from.",
         NOTHING_OVER_TIME,
         "The GPDM family knows no difference between persons, so its variances are too small "
         "for a new one. They, and those of lds, fam, low-rank and cyclic-alignment, are calibrated "
