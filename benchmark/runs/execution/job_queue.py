@@ -102,8 +102,8 @@ class JobQueue:
     def _learn_from(self, finished: Iterable[Record]) -> None:
         """Learn from records how long jobs take that fit a model."""
         for record in finished:
-            if record.status is Status.OK:
-                self._durations.learn(_list_alike(_kind(record, _FIT)), record.seconds or 0.0)
+            if record.status is Status.OK and record.seconds is not None:
+                self._durations.learn(_list_alike(_kind(record, _FIT)), record.seconds)
         for entrant in self._kinds:
             self._expect_anew(entrant)
 

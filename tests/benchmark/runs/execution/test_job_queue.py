@@ -129,7 +129,10 @@ def test_a_run_that_goes_on_knows_how_long_jobs_took_before(monkeypatch):
         SimpleNamespace(
             address=Address("task", 1, "case", 9, label), status=status, seconds=seconds
         )
-        for label, status, seconds in [("a", Status.OK, 3), ("b", Status.OK, 7), ("b", "failed", 1)]
+        for label, status, seconds in [
+            *(("a", Status.OK, 3), ("b", Status.OK, 7)),
+            *(("b", "failed", 1), ("a", Status.OK, None)),
+        ]
     ]
     queue = JobQueue([_job(n, label) for n, label in enumerate("ababc")], before)
     assert queue.time_left(1) == pytest.approx(2 * 3 + 2 * 7 + 5)  # c: the mean of all
