@@ -48,7 +48,7 @@ def test_the_recipe_of_conda_needs_what_the_package_needs():
     needed = [line.replace(">=", " >=") for line in METADATA["dependencies"]]
     lowest = METADATA["requires-python"].removeprefix(">=")
     assert RECIPE["context"]["python_min"] == lowest
-    assert RECIPE["requirements"]["run"] == ["python >=${{ python_min }}", *needed, "__unix"]
+    assert RECIPE["requirements"]["run"] == ["python >=${{ python_min }}", *needed]
     (builder,) = PROJECT["build-system"]["requires"]
     assert builder.replace(">=", " >=") in RECIPE["requirements"]["host"]
 
@@ -80,7 +80,7 @@ def test_the_recipe_of_conda_is_rendered_by_the_program_that_builds_it():
     assert recipe["package"] == {"name": "mocapbench", "version": __version__}
     lowest = METADATA["requires-python"].removeprefix(">=")
     assert recipe["requirements"]["run"][0] == f"python >={lowest}"
-    assert len(recipe["requirements"]["run"]) == len(METADATA["dependencies"]) + 2
+    assert len(recipe["requirements"]["run"]) == len(METADATA["dependencies"]) + 1
 
 
 def instructions(name):
