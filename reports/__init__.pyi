@@ -6,6 +6,7 @@ from .bundle.model_info import ModelInfo
 from .bundle.origin import Origin
 from .bundle.pictures import Axes, Curve, HeatMaps, Illustration, Motions, Picture, Space
 from .bundle.task_page import Figure, TaskPage
+from .export.latex import figure_latex
 from .export.selection import select_results
 from .export.typesetting import latex_text, markdown_text, paper_tables
 from .figures.plots.along_column import AlongColumn
@@ -60,6 +61,7 @@ __all__ = [
     "csv_text",
     "describe_figure",
     "draw_on_axes",
+    "figure_latex",
     "latex_text",
     "markdown_text",
     "model_styles",

@@ -121,7 +121,10 @@ def test_ranks_costs_and_recordings_are_drawn_too():
             lambda one: one.drop(columns="gap"),
             "expected the columns of evaluate, got none called gap",
         ),
-        (lambda one: pd.concat([one, one]), "expected one score of each, got several of"),
+        (
+            lambda one: pd.concat([one, one]),
+            "expected one score of each, as `evaluate` returns, got several of",
+        ),
         (lambda one: one.assign(value=np.nan), "expected scores, got none that is a number"),
         (lambda one: one.iloc[:0], "expected scores, got none"),
     ],

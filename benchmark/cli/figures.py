@@ -74,7 +74,8 @@ def figures(
     """Draw figures for a paper or slides, each with its data.
 
     By default every kind is drawn that the run has data for, as PDF of 8.4 cm. Beside a figure
-    are its numbers (.csv), and its caption with the command that draws it (.txt).
+    are its numbers (.csv), its caption with the command that draws it (.txt), and both for LaTeX
+    (.tex).
     """
     load_plugins(plugin)
     named = {"kinds": split(kinds), "tasks": split(tasks), "models": split(models)}
@@ -95,13 +96,18 @@ def figures(
     contents: dict[str, bytes] = {}
     for (task, kind, name), table in tables.items():
         command = _command_of(run, {**named, **given, "kinds": (kind,), "tasks": (task,)})
-        about = f"{reports.describe_figure(whole, task, kind, table)}\n\n{command}\n"
+        caption = reports.describe_figure(whole, task, kind, table)
         try:
             drawn = reports.render_figure(kind, table, styles, size, named["format"])
         except reports.NothingToDrawError as error:
             advice = "name more, or fewer models with --models"
             raise UsageError(f"--width: {error} for {name}; {advice}") from error
-        texts = {"csv": reports.csv_text(table), "txt": about}
+        shown = f"{folder.as_posix()}/{name}.{named['format'][0]}"
+        texts = {
+            "csv": reports.csv_text(table),
+            "txt": f"{caption}\n\n{command}\n",
+            "tex": reports.figure_latex(shown, caption, name),
+        }
         drawn |= {end: encode_text(text) for end, text in texts.items()}
         contents |= {f"{name}.{end}": file for end, file in drawn.items()}
     _show_lacking(lacking, console)

@@ -109,7 +109,9 @@ def _address_rows(scores: pd.DataFrame, column: str) -> pd.DataFrame:
     repeated = rows.duplicated(["case", *_PROBLEM, "label", "metric"])
     if repeated.any():
         first = rows[["case", *_PROBLEM, "label", "metric"]][repeated].iloc[0].tolist()
-        raise ValueError(f"expected one score of each, got several of {first}")
+        raise ValueError(
+            f"expected one score of each, as `evaluate` returns, got several of {first}"
+        )
     gaps = rows.drop_duplicates(["case", *_PROBLEM]).assign(
         fold=lambda own: own.groupby("case", sort=False).cumcount()
     )

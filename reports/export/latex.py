@@ -1,4 +1,4 @@
-r"""Tables in LaTeX with the package booktabs: what ``\input`` takes.
+r"""Tables in LaTeX with the package booktabs, and figures: what ``\input`` takes.
 
 A mean and its interval are two columns, so that decimal points stand below each other.
 """
@@ -14,7 +14,7 @@ from mocapbench.reports.export.page_width import wrap_head
 from mocapbench.reports.tables.base import Cell, Table
 from mocapbench.reports.text import MINUS
 
-__all__ = ["escape_latex", "table_latex"]
+__all__ = ["escape_latex", "figure_latex", "table_latex"]
 
 _MARKS = {"": "", "†": r"^{\dagger}", "‡": r"^{\ddagger}", "*": r"^{\ast}"}
 _MATHS = {
@@ -46,6 +46,30 @@ def escape_latex(text: str) -> str:
     """
     line = " ".join(printable(text).split())
     return _WITHIN_LIGATURES.sub("{}", line.translate(_MARKUP))
+
+
+def figure_latex(file: str, caption: str, name: str) -> str:
+    r"""Return a figure for ``\input`` that shows a file.
+
+    Parameters
+    ----------
+    file : str
+        From where the document is.
+    caption : str
+    name : str
+        Of the label, after ``fig:``.
+    """
+    return "\n".join(
+        [
+            r"\begin{figure}",
+            r"  \centering",
+            rf"  \includegraphics{{{file}}}",
+            rf"  \caption{{{escape_latex(caption)}}}",
+            rf"  \label{{fig:{name}}}",
+            r"\end{figure}",
+            "",
+        ]
+    )
 
 
 def table_latex(table: Table) -> str:

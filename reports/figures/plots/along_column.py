@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 import pandas as pd
@@ -15,7 +16,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels, choose_metrics
+from mocapbench.reports.figures.plots.choice import choose_labels, choose_metrics
 from mocapbench.reports.figures.plots.look import (
     Styles,
     fit_axis,
@@ -44,6 +45,8 @@ class AlongColumn(Plot):
     title : str
         What it is.
     """
+
+    chooses_models: ClassVar[bool] = True
 
     def __init__(self, column: str, title: str) -> None:
         self.column: str = column
@@ -110,7 +113,7 @@ class AlongColumn(Plot):
         first = f", shaded areas 95 % intervals of the first {N_BANDS} models"
         areas = f"{first}, cut where the axis ends" if shaded else ""
         folds = format_count(int(table["n"].max()), "fold")
-        return f"Points are means over {folds}{areas}. {CHOICE}"
+        return f"Points are means over {folds}{areas}."
 
     def keys(self, table: pd.DataFrame) -> Sequence[str]:
         """Return the models."""

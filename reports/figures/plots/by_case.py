@@ -17,7 +17,7 @@ from seaborn import objects
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels, choose_metrics
+from mocapbench.reports.figures.plots.choice import choose_labels, choose_metrics
 from mocapbench.reports.figures.plots.look import Styles, fit_axis, scale_mark, scales_of, wrap_text
 from mocapbench.reports.figures.styles import DrawingStyle
 
@@ -36,6 +36,7 @@ class ByCase(Plot):
     """A panel for each metric of the page, cases from left to right, a marker for each model."""
 
     narrowest: ClassVar[float] = 36.0
+    chooses_models: ClassVar[bool] = True
 
     def tabulate(
         self, bundle: Bundle, results: TaskResults, metrics: Sequence[str]
@@ -92,7 +93,7 @@ class ByCase(Plot):
         )
         return (
             "Markers are means over folds, bars their 95 % intervals by Student’s t where folds "
-            f"give one, cut where the axis ends. {CHOICE}{grey}"
+            f"give one, cut where the axis ends.{grey}"
         )
 
     def add_styles(self, table: pd.DataFrame, styles: Styles) -> Styles:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 import pandas as pd
@@ -12,7 +13,7 @@ from seaborn import objects
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels
+from mocapbench.reports.figures.plots.choice import choose_labels
 from mocapbench.reports.figures.plots.look import Styles, scale_mark, scales_of
 from mocapbench.reports.figures.scores.reliability import coverage_curves
 
@@ -21,6 +22,8 @@ __all__ = ["Calibration"]
 
 class Calibration(Plot):
     """A curve for each model that predicts variances, beside the diagonal of a calibrated one."""
+
+    chooses_models: ClassVar[bool] = True
 
     def tabulate(
         self, bundle: Bundle, results: TaskResults, metrics: Sequence[str]
@@ -65,7 +68,7 @@ class Calibration(Plot):
         del table
         return (
             "Share of hidden values within predicted intervals against the nominal share; on the "
-            f"dotted line both are the same. {CHOICE}"
+            "dotted line both are the same."
         )
 
     def keys(self, table: pd.DataFrame) -> Sequence[str]:

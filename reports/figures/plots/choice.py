@@ -8,16 +8,11 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.export.selection import order_labels
 from mocapbench.reports.figures.scores.best import best_labels
 
-__all__ = ["CHOICE", "choose_labels", "choose_metrics"]
+__all__ = ["choose_labels", "choose_metrics", "describe_choice"]
 
 MOST_CURVES = 8
 """More cannot be told apart."""
 _BEST = 4
-CHOICE = (
-    f"Of more than {MOST_CURVES} models the best are drawn, with those of the papers and the best "
-    "interpolation."
-)
-"""What `choose_labels` chooses, for captions."""
 
 
 def choose_labels(results: TaskResults, metric: str, among: Iterable[str]) -> list[str]:
@@ -32,6 +27,17 @@ def choose_labels(results: TaskResults, metric: str, among: Iterable[str]) -> li
     papers = [name for name in ordered if name in results.layout.page.published_models]
     chosen = {*best_labels(results, metric, known, _BEST), *papers[:_BEST]}
     return [name for name in ordered if name in chosen]
+
+
+def describe_choice(results: TaskResults) -> str:
+    """Return a sentence for captions on what `choose_labels` chooses; empty if it takes all."""
+    scored = {label for _, label, _ in results.estimates}
+    if len(scored) <= MOST_CURVES:
+        return ""
+    return (
+        f"Of {len(scored)} models the best are drawn, with those of the papers and the best "
+        "interpolation."
+    )
 
 
 def choose_metrics(results: TaskResults, named: Sequence[str]) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -11,7 +12,7 @@ from seaborn import objects
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.choice import CHOICE, choose_labels, choose_metrics
+from mocapbench.reports.figures.plots.choice import choose_labels, choose_metrics
 from mocapbench.reports.figures.plots.look import Styles, fit_axis, scale_mark, scales_of
 from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.figures.scores.cost import front, median_seconds
@@ -24,6 +25,8 @@ _COLUMNS = ("task", "metric", "quantity", "panel", "label", "mean", "seconds", "
 
 class Cost(Plot):
     """A point for each model that has a score in every case and whose jobs were timed."""
+
+    chooses_models: ClassVar[bool] = True
 
     def tabulate(
         self, bundle: Bundle, results: TaskResults, metrics: Sequence[str]
@@ -62,7 +65,7 @@ class Cost(Plot):
         best = ", ".join(table["label"][table["on_front"]])
         return (
             "Median seconds to fit and predict against the mean over cases. No other model is both "
-            f"better and cheaper than those on the line: {best}. {CHOICE}"
+            f"better and cheaper than those on the line: {best}."
         )
 
     def keys(self, table: pd.DataFrame) -> Sequence[str]:

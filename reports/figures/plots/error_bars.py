@@ -25,6 +25,7 @@ from mocapbench.reports.figures.plots.look import (
     scales_of,
     wrap_text,
 )
+from mocapbench.reports.figures.scale import LogScale, fit_scale
 
 __all__ = ["ErrorBars"]
 
@@ -83,14 +84,23 @@ class ErrorBars(Plot):
     def describe(self, table: pd.DataFrame) -> str:
         """Return what dots and bars are, and over how many."""
         most = table.sort_values("n", kind="stable").iloc[-1]
-        bars = (
-            ", bars their 95 % intervals, cut where the axis ends"
-            if table["low"].notna().any()
-            else ""
-        )
         n, kind = int(most["n"]), str(most["n_of"])
-        of = f"{format_count(n, kind)} at most" if n > 1 else f"folds of one {kind}"
-        return f"Large markers are means{bars}; small ones are single values, of {of}."
+        bars = (
+            "bars their 95 % intervals by Student’s t, cut where the axis ends"
+            if table["low"].notna().any()
+            else f"without intervals, which one {kind} does not give"
+        )
+        of = format_count(n, kind) if n > 1 else f"folds of one {kind}"
+        least = "" if table["n"].nunique() == 1 else " at most"
+        scaled = any(_is_logarithmic(panel) for _, panel in table.groupby("panel"))
+        axes = " Axes are logarithmic where values span a factor of ten." if scaled else ""
+        return (
+            f"Large markers are means, {bars}; small ones are single values, of {of}{least}.{axes}"
+        )
+
+
+def _is_logarithmic(panel: pd.DataFrame) -> bool:
+    return isinstance(fit_scale([*panel["value"], *panel["mean"]], 0.0, 1.0), LogScale)
 
 
 def _tabulate_metric(results: TaskResults, metric: str) -> pd.DataFrame:

@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
-from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.results import TaskResults, task_results
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.export.paper_table import describe_protocol
 from mocapbench.reports.figures.plots.base import NothingToDrawError
+from mocapbench.reports.figures.plots.choice import describe_choice
 from mocapbench.reports.figures.plots.kinds import FIGURE_KINDS
 from mocapbench.reports.text import slug
 
@@ -57,5 +58,17 @@ def _name_figure(*parts: str) -> str:
 def describe_figure(bundle: Bundle, task: str, kind: str, table: pd.DataFrame) -> str:
     """Return a caption: the task with its protocol, and what marks and intervals are."""
     (layout,) = (layout for layout in bundle.layouts if layout.name == task)
+    results, plot = task_results(bundle, layout), FIGURE_KINDS[kind]
     protocol = describe_protocol(layout, bundle.provenance.get("profile", ""))
-    return f"{protocol}. {FIGURE_KINDS[kind].describe(table)}"
+    chosen = describe_choice(results) if plot.chooses_models else ""
+    parts = (f"{protocol}{_describe_cases(results)}.", plot.describe(table), chosen)
+    return " ".join(filter(None, parts))
+
+
+def _describe_cases(results: TaskResults) -> str:
+    """Return which case ran, if it was one alone, and whether all are of generated motion."""
+    names = [case.name for case in results.cases]
+    made = all(case.synthetic for case in results.cases)
+    return (f", {names[0]}" if len(names) == 1 else "") + (
+        ", generated motion (synthetic)" if made else ""
+    )

@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 from mocapbench.reports import FIGURE_KINDS
+from mocapbench.reports.export.latex import escape_latex
 
 TASK = "toy-interpolation-1"
 LABELS = ("mohgp-3", "knn", "trivial")
@@ -39,6 +40,7 @@ def test_each_figure_has_its_data_its_caption_and_its_command(cli, run):
             ".svg",
             ".csv",
             ".txt",
+            ".tex",
         }
     assert f"4 figures: {folder}" in cli.printed
     assert f"no calibration of {TASK}: no model has the coverage" in cli.printed
@@ -67,6 +69,24 @@ def test_the_numbers_are_those_of_the_table_for_a_paper(cli, run, tmp_path):
         assert row.mean == ours["mean"]
         assert row.high - row.mean == pytest.approx(ours["half_width"])
     assert len(drawn[drawn["panel"] == "test 1"]) == 18
+
+
+def test_a_figure_for_latex_names_its_file_and_has_the_caption(cli, run, tmp_path):
+    assert cli("figures", run, "--kinds", "error-bars", "--cases", "test 1", "--to", tmp_path) == 0
+    name = f"{TASK}-error-bars-mse"
+    caption = (tmp_path / f"{name}.txt").read_text(encoding="utf-8").splitlines()[0]
+    assert ", test 1. Large markers are means, bars their 95 % intervals" in caption
+    assert "single values, of 6 folds." in caption
+    lines = (tmp_path / f"{name}.tex").read_text(encoding="utf-8").splitlines()
+    assert lines == [
+        r"\begin{figure}",
+        r"  \centering",
+        rf"  \includegraphics{{{tmp_path.as_posix()}/{name}.pdf}}",
+        rf"  \caption{{{escape_latex(caption)}}}",
+        rf"  \label{{fig:{name}}}",
+        r"\end{figure}",
+    ]
+    assert "95 \\%" in lines[3]
 
 
 def test_cases_that_are_named_are_drawn_alone_also_by_the_command_beside(cli, run, tmp_path):

@@ -13,6 +13,7 @@ from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.error_parts import ErrorParts
 from mocapbench.reports.bundle.pictures import HeatMaps
 from mocapbench.reports.export.means import tabulate_means
+from mocapbench.reports.export.selection import select_results
 from mocapbench.reports.figures.plots.base import NothingToDrawError
 from mocapbench.reports.figures.plots.drawing import FIGURE_FORMATS, draw_figure, render_figure
 from mocapbench.reports.figures.plots.kinds import FIGURE_KINDS
@@ -124,6 +125,25 @@ def test_numbers_of_recordings_stand_apart_by_their_ratios_and_zero_beside_them(
     ticks = axes.get_xticks()
     assert [*ticks] == [0, 3, 10, 30, 100]
     assert np.diff(axes.transData.transform(np.column_stack([ticks, ticks]))[:, 0]).min() > 25
+
+
+def caption_of(whole, kind):
+    (table,) = tables_of(whole, kind).values()
+    return describe_figure(whole, TOY, kind, table)
+
+
+def test_a_caption_says_that_all_motion_is_generated_and_which_models_are_left_out(
+    bundle, monkeypatch
+):
+    toy = select_results(bundle, [TOY])
+    (layout,) = toy.layouts
+    made = replace(layout, cases=tuple(replace(case, synthetic=True) for case in layout.cases))
+    for one, said in ((layout, False), (made, True)):
+        whole = replace(toy, layouts=(one,))
+        assert (", generated motion (synthetic)." in caption_of(whole, "error-bars")) == said
+    assert f"Of {len(layout.labels)} models the best are drawn" in caption_of(whole, "by-case")
+    monkeypatch.setattr("mocapbench.reports.figures.plots.choice.MOST_CURVES", len(layout.labels))
+    assert "the best are drawn" not in caption_of(whole, "by-case")
 
 
 @each_kind
