@@ -33,6 +33,8 @@ from mocapbench.benchmark.cli.options import (
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from mocapbench.benchmark import RunDirectory
 
 __all__ = ["app"]
@@ -97,19 +99,11 @@ def figures(
     for (task, kind, name), table in tables.items():
         command = _command_of(run, {**named, **given, "kinds": (kind,), "tasks": (task,)})
         caption = reports.describe_figure(whole, task, kind, table)
-        try:
-            drawn = reports.render_figure(kind, table, styles, size, named["format"])
-        except reports.NothingToDrawError as error:
-            advice = "name more, or fewer models with --models"
-            raise UsageError(f"--width: {error} for {name}; {advice}") from error
-        shown = f"{folder.as_posix()}/{name}.{named['format'][0]}"
-        texts = {
-            "csv": reports.csv_text(table),
-            "txt": f"{caption}\n\n{command}\n",
-            "tex": reports.figure_latex(shown, caption, name),
-        }
-        drawn |= {end: encode_text(text) for end, text in texts.items()}
-        contents |= {f"{name}.{end}": file for end, file in drawn.items()}
+        texts = {"csv": reports.csv_text(table), "txt": f"{caption}\n\n{command}\n"}
+        texts |= _write_latex(name, caption, named["format"])
+        files = _draw(kind, name, table, styles, size, named["format"])
+        files |= {end: encode_text(text) for end, text in texts.items()}
+        contents |= {f"{name}.{end}": file for end, file in files.items()}
     _show_lacking(lacking, console)
     show_left_out(store.damaged, console)
     if not contents:
@@ -138,7 +132,8 @@ def _bundle_run(
     cases = bench.find_cases(whole, named["cases"])
     labels = bench.find_labels(whole, named["models"])
     bench.find_metrics(whole, named["metrics"])
-    shown = [record for record in records if record.address.task in tasks]
+    shown = [one for one in records if one.address.task in tasks]
+    shown = [one for one in shown if one.address.case in cases or not cases]
     kinds = named["kinds"] or [*reports.FIGURE_KINDS]
     wanted = any(reports.FIGURE_KINDS[kind].shows_pictures for kind in kinds)
     chosen = replace(
@@ -172,6 +167,28 @@ def _command_of(run: Path, options: Mapping[str, Sequence[str]]) -> str:
     """Return the command that draws a figure alone."""
     words = [f"--{name}={text}" for name, texts in options.items() for text in texts if text]
     return shlex.join(["mocapbench", "figures", str(run), *words])
+
+
+def _draw(
+    kind: str,
+    name: str,
+    table: pd.DataFrame,
+    styles: Mapping[str, reports.DrawingStyle],
+    size: tuple[float, float],
+    formats: Sequence[str],
+) -> dict[str, bytes]:
+    """Return a figure in each format."""
+    try:
+        return reports.render_figure(kind, table, styles, size, formats)
+    except reports.NothingToDrawError as error:
+        advice = "name more, or fewer models with --models"
+        raise UsageError(f"--width: {error} for {name}; {advice}") from error
+
+
+def _write_latex(name: str, caption: str, formats: Sequence[str]) -> dict[str, str]:
+    """Return what shows a figure in a document, if it is in a format that LaTeX takes."""
+    shown = [f"{name}.{end}" for end in ("pdf", "png") if end in formats]
+    return {"tex": reports.figure_latex(shown[0], caption, name)} if shown else {}
 
 
 def _write(folder: Path, contents: Mapping[str, bytes]) -> None:

@@ -54,10 +54,10 @@ def figure_latex(file: str, caption: str, name: str) -> str:
     Parameters
     ----------
     file : str
-        From where the document is.
+        Its name, by which LaTeX finds it.
     caption : str
     name : str
-        Of the label, after ``fig:``.
+        The label is ``fig:`` and this.
     """
     return "\n".join(
         [

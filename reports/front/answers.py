@@ -86,7 +86,7 @@ def _find(results: TaskResults) -> list[Finding]:
     rivals = _leave_out_choosers(results)
     found = [(text, cases, standings(rivals, metric, cases)) for text, cases in asked or whole]
     return [
-        (results, text, ranked, _find_better(_keep_cases(results, cases), ranked[0].label))
+        (results, text, ranked, _find_better(_keep_cases(rivals, cases), ranked[0].label))
         for text, cases, ranked in found
         if ranked
     ]
@@ -99,7 +99,7 @@ def _keep_cases(results: TaskResults, cases: Sequence[CaseLayout] | None) -> Tas
 
 
 def _find_better(results: TaskResults, label: str) -> str:
-    """Return the reference and its mean if a label is no better over all cases; else nothing."""
+    """Return the reference and its mean if a label, the best, is no better; else nothing."""
     cells, name = board_cells(results), reference_of(results)
     return f"{name}, {cells[name].text}" if name and cells[label].beaten else ""
 

@@ -55,8 +55,8 @@ def _ask(values: str, hidden: str) -> Mapping[str, str]:
 
 
 _LONG = (
-    "Variances that grow on to the length of a gap hold .92 to .93 of two seconds, in place of .89 "
-    "to .91, but their CRPS is 1 to 3 % larger: no model has them."
+    "Intervals hold .89 to .91 of gaps of two seconds. Variances that grow with the length of the "
+    "gap would hold .92 to .93, at a CRPS 1 to 3 % larger."
 )
 _STEPS = (
     "The frame before a gap is neither shown nor asked: translations are steps, of which its own "

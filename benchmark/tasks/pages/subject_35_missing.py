@@ -36,9 +36,7 @@ PAGE = TaskPage(
         "Published models without an entrant here: the GP-LVM with q latent dimensions (Lawrence "
         "2007), the binary latent variable model and a nearest neighbour over two frames and the "
         "root’s path (Taylor 2006, without errors in degrees).",
-        "Missing among the published ones is VGPDS (Damianou 2011), remembered, not read, to have "
-        "2.88° and a cumulative scaled error of 6.99 for the leg, 1.90° and 10.73 for the upper "
-        "body.",
+        "Missing among the published ones is VGPDS (Damianou 2011), which nobody here has read.",
         "One recording is filled, so there is one fold and no interval: a difference between two "
         "models says little about other recordings.",
         "The constants of channel-kriging were chosen where the second half of either part was "

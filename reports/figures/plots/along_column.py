@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import ClassVar
 
 import numpy as np
 import pandas as pd
@@ -16,7 +15,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.choice import choose_labels, choose_metrics
+from mocapbench.reports.figures.plots.choice import choose_labels, choose_metrics, count_models
 from mocapbench.reports.figures.plots.look import (
     Styles,
     fit_axis,
@@ -45,8 +44,6 @@ class AlongColumn(Plot):
     title : str
         What it is.
     """
-
-    chooses_models: ClassVar[bool] = True
 
     def __init__(self, column: str, title: str) -> None:
         self.column: str = column
@@ -130,7 +127,7 @@ class AlongColumn(Plot):
             for case in sorted(cases, key=lambda one: _number(one, self.column))
             if (estimate := results.estimate(case.name, label, metric)) is not None
         ]
-        return pd.DataFrame(rows, columns=list(_COLUMNS))
+        return count_models(pd.DataFrame(rows, columns=list(_COLUMNS)), len(scored))
 
 
 def _number(case: CaseLayout, column: str) -> float:

@@ -30,9 +30,6 @@ class Plot(ABC):
     narrowest: ClassVar[float] = 22.0
     """Least width of a panel, in em: where there is room for several, they stand side by side."""
 
-    chooses_models: ClassVar[bool] = False
-    """Whether it shows the models of `mocapbench.reports.figures.plots.choice`, not all."""
-
     shows_pictures: ClassVar[bool] = False
     """Whether it draws pictures of the bundle, which are made from stored solutions."""
 

@@ -17,7 +17,7 @@ from seaborn import objects
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.choice import choose_labels, choose_metrics
+from mocapbench.reports.figures.plots.choice import choose_labels, choose_metrics, count_models
 from mocapbench.reports.figures.plots.look import Styles, fit_axis, scale_mark, scales_of, wrap_text
 from mocapbench.reports.figures.styles import DrawingStyle
 
@@ -36,7 +36,6 @@ class ByCase(Plot):
     """A panel for each metric of the page, cases from left to right, a marker for each model."""
 
     narrowest: ClassVar[float] = 36.0
-    chooses_models: ClassVar[bool] = True
 
     def tabulate(
         self, bundle: Bundle, results: TaskResults, metrics: Sequence[str]
@@ -51,7 +50,7 @@ class ByCase(Plot):
         rows = [row for metric in shown for row in _list_rows(results, metric, labels)]
         if not rows:
             raise NothingToDrawError("no model has a score")
-        return {"": pd.DataFrame(rows, columns=list(_COLUMNS))}
+        return {"": count_models(pd.DataFrame(rows, columns=list(_COLUMNS)), len(scored))}
 
     def draw(self, axes: Axes, panel: pd.DataFrame, styles: Styles) -> None:
         """Draw markers and intervals, those of a case beside each other."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import ClassVar
 
 import numpy as np
 import pandas as pd
@@ -13,7 +12,7 @@ from seaborn import objects
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.choice import choose_labels
+from mocapbench.reports.figures.plots.choice import choose_labels, count_models
 from mocapbench.reports.figures.plots.look import Styles, scale_mark, scales_of
 from mocapbench.reports.figures.scores.reliability import coverage_curves
 
@@ -22,8 +21,6 @@ __all__ = ["Calibration"]
 
 class Calibration(Plot):
     """A curve for each model that predicts variances, beside the diagonal of a calibrated one."""
-
-    chooses_models: ClassVar[bool] = True
 
     def tabulate(
         self, bundle: Bundle, results: TaskResults, metrics: Sequence[str]
@@ -39,7 +36,7 @@ class Calibration(Plot):
             for nominal, share in curves[label].items()
         ]
         columns = ["task", "panel", "label", "nominal", "coverage"]
-        return {"": pd.DataFrame(rows, columns=columns)}
+        return {"": count_models(pd.DataFrame(rows, columns=columns), len(curves))}
 
     def draw(self, axes: Axes, panel: pd.DataFrame, styles: Styles) -> None:
         """Draw the diagonal and the curves on equal axes."""

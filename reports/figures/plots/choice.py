@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+import pandas as pd
+
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.export.selection import order_labels
 from mocapbench.reports.figures.scores.best import best_labels
 
-__all__ = ["choose_labels", "choose_metrics", "describe_choice"]
+__all__ = ["choose_labels", "choose_metrics", "count_models", "describe_choice"]
 
 MOST_CURVES = 8
 """More cannot be told apart."""
 _BEST = 4
+_OF_MODELS = "of models"
 
 
 def choose_labels(results: TaskResults, metric: str, among: Iterable[str]) -> list[str]:
@@ -29,14 +32,20 @@ def choose_labels(results: TaskResults, metric: str, among: Iterable[str]) -> li
     return [name for name in ordered if name in chosen]
 
 
-def describe_choice(results: TaskResults) -> str:
-    """Return a sentence for captions on what `choose_labels` chooses; empty if it takes all."""
-    scored = {label for _, label, _ in results.estimates}
-    if len(scored) <= MOST_CURVES:
+def count_models(table: pd.DataFrame, n_models: int) -> pd.DataFrame:
+    """Return a figure's table, which then knows of how many models `choose_labels` chose."""
+    table.attrs[_OF_MODELS] = n_models
+    return table
+
+
+def describe_choice(table: pd.DataFrame) -> str:
+    """Return a sentence for captions on what `choose_labels` chose; empty if it took all."""
+    n_models = table.attrs.get(_OF_MODELS, 0)
+    if n_models <= MOST_CURVES:
         return ""
     return (
-        f"Of {len(scored)} models the best are drawn, with those of the papers and the best "
-        "interpolation."
+        f"Of {n_models} models the best are drawn, with some of the papers, the best interpolation "
+        "and yours."
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import ClassVar
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -12,7 +11,7 @@ from seaborn import objects
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.figures.plots.base import NothingToDrawError, Plot
-from mocapbench.reports.figures.plots.choice import choose_labels, choose_metrics
+from mocapbench.reports.figures.plots.choice import choose_labels, choose_metrics, count_models
 from mocapbench.reports.figures.plots.look import Styles, fit_axis, scale_mark, scales_of
 from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.figures.scores.cost import front, median_seconds
@@ -25,8 +24,6 @@ _COLUMNS = ("task", "metric", "quantity", "panel", "label", "mean", "seconds", "
 
 class Cost(Plot):
     """A point for each model that has a score in every case and whose jobs were timed."""
-
-    chooses_models: ClassVar[bool] = True
 
     def tabulate(
         self, bundle: Bundle, results: TaskResults, metrics: Sequence[str]
@@ -83,4 +80,4 @@ def _tabulate_metric(results: TaskResults, metric: str) -> pd.DataFrame:
     about = (results.layout.name, metric, results.metrics[metric].quantity, "")
     shown = [*dict.fromkeys([*choose_labels(results, metric, labels), *on_front])]
     rows = [(*about, name, means[name], seconds[name], name in on_front) for name in shown]
-    return pd.DataFrame(rows, columns=list(_COLUMNS))
+    return count_models(pd.DataFrame(rows, columns=list(_COLUMNS)), len(labels))

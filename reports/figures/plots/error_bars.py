@@ -90,7 +90,7 @@ class ErrorBars(Plot):
             if table["low"].notna().any()
             else f"without intervals, which one {kind} does not give"
         )
-        of = format_count(n, kind) if n > 1 else f"folds of one {kind}"
+        of = format_count(n, kind) if n > 1 or kind == "fold" else f"folds of one {kind}"
         least = "" if table["n"].nunique() == 1 else " at most"
         scaled = any(_is_logarithmic(panel) for _, panel in table.groupby("panel"))
         axes = " Axes are logarithmic where values span a factor of ten." if scaled else ""
@@ -105,6 +105,8 @@ def _is_logarithmic(panel: pd.DataFrame) -> bool:
 
 def _tabulate_metric(results: TaskResults, metric: str) -> pd.DataFrame:
     columns = [*columns_of(results, metric, alone=True)]
+    scored = {case for case, _, name in results.estimates if name == metric}
+    columns = [one for one in columns if scored.intersection(case.name for case in one[1])]
     shown = columns if len(columns) <= MOST_PANELS else columns[:1]
     ordered = order_labels(results, metric).layout.labels
     about = (results.layout.name, metric, results.metrics[metric].quantity)

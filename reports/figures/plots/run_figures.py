@@ -58,17 +58,16 @@ def _name_figure(*parts: str) -> str:
 def describe_figure(bundle: Bundle, task: str, kind: str, table: pd.DataFrame) -> str:
     """Return a caption: the task with its protocol, and what marks and intervals are."""
     (layout,) = (layout for layout in bundle.layouts if layout.name == task)
-    results, plot = task_results(bundle, layout), FIGURE_KINDS[kind]
     protocol = describe_protocol(layout, bundle.provenance.get("profile", ""))
-    chosen = describe_choice(results) if plot.chooses_models else ""
-    parts = (f"{protocol}{_describe_cases(results)}.", plot.describe(table), chosen)
+    about = f"{protocol}{_describe_cases(task_results(bundle, layout))}."
+    parts = (about, FIGURE_KINDS[kind].describe(table), describe_choice(table))
     return " ".join(filter(None, parts))
 
 
 def _describe_cases(results: TaskResults) -> str:
-    """Return which case ran, if it was one alone, and whether all are of generated motion."""
-    names = [case.name for case in results.cases]
-    made = all(case.synthetic for case in results.cases)
-    return (f", {names[0]}" if len(names) == 1 else "") + (
-        ", generated motion (synthetic)" if made else ""
-    )
+    """Return which case has scores, if it is one alone, and whether all are of generated motion."""
+    scored = {case for case, _, _ in results.estimates}
+    cases = [case for case in results.cases if case.name in scored]
+    name = f", {cases[0].name}" if len(cases) == 1 else ""
+    made = bool(cases) and all(case.synthetic for case in cases)
+    return name + (", generated motion (synthetic)" if made else "")

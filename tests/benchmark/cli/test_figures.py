@@ -81,12 +81,24 @@ def test_a_figure_for_latex_names_its_file_and_has_the_caption(cli, run, tmp_pat
     assert lines == [
         r"\begin{figure}",
         r"  \centering",
-        rf"  \includegraphics{{{tmp_path.as_posix()}/{name}.pdf}}",
+        rf"  \includegraphics{{{name}.pdf}}",
         rf"  \caption{{{escape_latex(caption)}}}",
         rf"  \label{{fig:{name}}}",
         r"\end{figure}",
     ]
     assert "95 \\%" in lines[3]
+
+
+@pytest.mark.parametrize(
+    ("formats", "shown"), [("svg,pdf", ".pdf"), ("svg,png", ".png"), ("svg", None)]
+)
+def test_latex_is_given_what_it_can_show(cli, run, tmp_path, formats, shown):
+    given = ("--kinds", "error-bars", "--format", formats, "--to", tmp_path)
+    assert cli("figures", run, *given) == 0
+    texts = [path.read_text(encoding="utf-8") for path in tmp_path.glob("*.tex")]
+    assert [re.search(r"includegraphics{.*(\.\w+)}", text)[1] for text in texts] == [
+        *filter(None, [shown])
+    ]
 
 
 def test_cases_that_are_named_are_drawn_alone_also_by_the_command_beside(cli, run, tmp_path):

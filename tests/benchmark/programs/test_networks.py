@@ -5,6 +5,7 @@ What needs PyTorch is tested where `mocapbench models install` has put it, as `t
 
 import importlib.util
 import os
+import signal
 import subprocess
 from pathlib import Path
 
@@ -84,10 +85,12 @@ def run_in():
         if not environment.exists():
             pytest.skip(f"needs `mocapbench models install {name}`")
         variables = {"MOCAPBENCH_SEED": "1", "MOCAPBENCH_SECONDS": seconds}
+        known = {name: text for name, text in os.environ.items() if name != "MOCAPBENCH_DEADLINE"}
         ended = subprocess.run(
             [environment / "bin" / "python", *words],
             cwd=FOLDER,
-            env={**os.environ, **list_variables(environment), **variables},
+            env={**known, **list_variables(environment), **variables},
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN),  # in the background
             capture_output=True,
             text=True,
             check=False,
@@ -137,7 +140,7 @@ print(bool((network.weight == network.start).all()), sum(seen))
 @pytest.mark.slow
 def test_learning_ends_with_half_of_the_time(run_in):
     ended = run_in("transformer", "-c", ENDLESS, seconds="2")
-    assert "stopped by its processor time: with more it may learn more" in ended.stderr
+    assert "stopped after 50% of its processor time: with more it may learn more" in ended.stderr
     assert ended.stdout == "then it goes on\n"
 
 
@@ -154,8 +157,40 @@ print("then it goes on")
 @pytest.mark.slow
 def test_what_was_spent_before_learning_is_part_of_the_time(run_in):
     ended = run_in("transformer", "-c", LATE, seconds="100")
-    assert "stopped by its time by the clock" in ended.stderr
+    assert "stopped after 80% of its time by the clock" in ended.stderr
     assert ended.stdout == "then it goes on\n"
+
+
+SPENT = """
+import torch, training
+network = torch.nn.Linear(1, 1)
+training.train_network(network, lambda batch: -network.weight.sum(), lambda: None, [None], 0.1)
+"""
+
+
+@pytest.mark.slow
+def test_between_steps_it_is_known_whether_the_time_is_spent(run_in):
+    said = run_in("transformer", "-c", SPENT, seconds="0.01").stderr
+    assert "step 0: loss" in said
+    assert "stopped after 50% of its processor time" in said
+
+
+FAILS = """
+import time, training
+try:
+    with training.limit_time():
+        raise ValueError
+except ValueError:
+    time.sleep(1.0)
+for _ in range(10_000_000): pass
+print("nothing interrupts what follows")
+"""
+
+
+@pytest.mark.slow
+def test_what_fails_is_not_interrupted_afterwards(run_in):
+    ended = run_in("transformer", "-c", FAILS, seconds="3")
+    assert ended.stdout == "nothing interrupts what follows\n"
 
 
 @pytest.mark.slow

@@ -301,6 +301,20 @@ def test_the_reference_is_compared_in_the_case_that_a_sentence_is_about(small):
     ]
 
 
+def test_a_model_that_failed_on_recordings_leads_on_generated_motion(small):
+    values = {
+        "rec": {"a": [NAN], "both": [1.0], "replay": [2.0]},
+        "syn": {"a": [1.0], "both": [2.0], "replay": [1.0]},
+    }
+    several = {"both": ModelInfo("both", family="Several models")}
+    bundle = small(values, models=several)
+    (layout,) = bundle.layouts
+    cases = tuple(replace(case, synthetic=case.name == "syn") for case in layout.cases)
+    bundle = replace(bundle, layouts=(replace(layout, cases=cases),))
+    (answer,) = answers([task_results(bundle, bundle.layouts[0])])
+    assert answer["findings"][0][2] == "a 1.00; no better than replay, 1.00"
+
+
 def test_the_line_of_trust_counts_what_ran_and_what_is_missing(small):
     bundle = small({"x": {"a": [1.0, NAN], "b": [1.0, 1.0]}, "y": {"a": [NAN], "b": [NAN]}})
     bundle = replace(bundle, provenance={"profile": "quick", "wall time": "3 s", "seed": "0"})

@@ -18,7 +18,14 @@ import numpy as np
 import torch
 from torch import nn
 
-__all__ = ["limit_time", "load_network", "save_network", "seed_everything", "train_network"]
+__all__ = [
+    "limit_time",
+    "load_network",
+    "save_network",
+    "seed_everything",
+    "train_network",
+    "watch_time",
+]
 
 Batch = TypeVar("Batch")
 
@@ -27,8 +34,8 @@ _SHARE, _OF_CLOCK = 0.5, 0.8
 
 On a machine that has a core for it the first are spent first, or neither.
 """
-_LOOK = 0.1
-"""Seconds after which its time is looked at again."""
+_LOOK, _AGAIN = 0.1, 10.0
+"""Seconds after which its time is looked at again, and after which it is interrupted again."""
 _MOST_STEPS, _EVERY, _PATIENCE = 4_000, 25, 6
 """Steps at the most; after how many held-out windows are looked at; and how often in vain."""
 _WARM_UP = 50
@@ -45,30 +52,52 @@ def seed_everything() -> np.random.Generator:
     return np.random.default_rng(seed)
 
 
-@contextmanager
-def limit_time() -> Iterator[None]:
-    """End what is done in the context once this process has taken its share of the time."""
-    ended = threading.Event()
-    watcher = threading.Thread(target=_watch_time, args=(ended,), daemon=True)
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # in the background it is ignored
-    watcher.start()
-    with suppress(KeyboardInterrupt):
-        yield
-        ended.set()
-        watcher.join()
-
-
-def _watch_time(ended: threading.Event) -> None:
-    """Interrupt what the process does when its share is taken, unless it has ended."""
+def watch_time() -> Callable[[], str]:
+    """Return a function that says what time this process has taken its share of, if of any."""
     seconds = min(1e7, float(os.environ["MOCAPBENCH_SECONDS"]))
     deadline = float(os.environ.get("MOCAPBENCH_DEADLINE", "inf"))
-    while not ended.wait(_LOOK):
+
+    def tell_spent() -> str:
+        if time.process_time() > _SHARE * seconds:
+            return f"{_SHARE:.0%} of its processor time"
         late = deadline - time.monotonic() < (1.0 - _OF_CLOCK) * seconds
-        if late or time.process_time() > _SHARE * seconds:
-            spent = "time by the clock" if late else "processor time"
-            print(f"stopped by its {spent}: with more it may learn more", file=sys.stderr)
+        return f"{_OF_CLOCK:.0%} of its time by the clock" if late else ""
+
+    return tell_spent
+
+
+@contextmanager
+def limit_time() -> Iterator[None]:
+    """Interrupt what is done in the context once this process has taken its share of the time.
+
+    It is for libraries that learn in one call.
+    """
+    ended = threading.Event()
+    watcher = threading.Thread(target=_interrupt, args=(watch_time(), ended), daemon=True)
+    former = signal.signal(signal.SIGINT, signal.default_int_handler)  # it may be ignored
+    watcher.start()
+    try:
+        with suppress(KeyboardInterrupt):
+            yield
+            ended.set()
+            watcher.join()
+    finally:
+        ended.set()
+        signal.signal(signal.SIGINT, former)
+
+
+def _interrupt(tell_spent: Callable[[], str], ended: threading.Event) -> None:
+    """Interrupt the process when its time is spent, and again while it goes on all the same."""
+    while not ended.wait(_LOOK):
+        if spent := tell_spent():
+            _tell_end(spent)
             _thread.interrupt_main()
-            return
+            while not ended.wait(_AGAIN):  # an interrupt in a finaliser is lost
+                _thread.interrupt_main()
+
+
+def _tell_end(spent: str) -> None:
+    print(f"stopped after {spent}: with more it may learn more", file=sys.stderr)
 
 
 def train_network(
@@ -95,21 +124,24 @@ def train_network(
     optimizer = torch.optim.AdamW(network.parameters(), lr=rate, weight_decay=0.1)
     warm_up = torch.optim.lr_scheduler.LambdaLR(optimizer, lambda k: min(1.0, (k + 1) / _WARM_UP))
     best, least, in_vain = copy.deepcopy(network.state_dict()), np.inf, 0
-    with limit_time():
-        for step in range(_MOST_STEPS):
-            if step % _EVERY == 0:
-                lost = _measure_loss(network, loss, held_out)
-                print(f"step {step}: loss {lost:.4f} of held-out windows", file=sys.stderr)
-                in_vain = 0 if lost < least else in_vain + 1
-                if lost < least:
-                    best, least = copy.deepcopy(network.state_dict()), lost
-                if in_vain == _PATIENCE:
-                    break
-            optimizer.zero_grad()
-            loss(draw()).backward()
-            nn.utils.clip_grad_norm_(network.parameters(), 1.0)
-            optimizer.step()
-            warm_up.step()
+    tell_spent = watch_time()
+    for step in range(_MOST_STEPS):
+        if step % _EVERY == 0:
+            lost = _measure_loss(network, loss, held_out)
+            print(f"step {step}: loss {lost:.4f} of held-out windows", file=sys.stderr)
+            in_vain = 0 if lost < least else in_vain + 1
+            if lost < least:
+                best, least = copy.deepcopy(network.state_dict()), lost
+            if in_vain == _PATIENCE:
+                break
+        if spent := tell_spent():
+            _tell_end(spent)
+            break
+        optimizer.zero_grad()
+        loss(draw()).backward()
+        nn.utils.clip_grad_norm_(network.parameters(), 1.0)
+        optimizer.step()
+        warm_up.step()
     network.load_state_dict(best)
 
 

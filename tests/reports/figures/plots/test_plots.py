@@ -146,6 +146,19 @@ def test_a_caption_says_that_all_motion_is_generated_and_which_models_are_left_o
     assert "the best are drawn" not in caption_of(whole, "by-case")
 
 
+def test_recordings_that_are_missing_are_neither_drawn_nor_told(small):
+    names = [*"abcdefgh", "synthetic"]
+    nothing = {"knn": [np.nan, np.nan]}
+    bundle = small({**dict.fromkeys(names, nothing), "synthetic": {"knn": [1.0, 2.0]}})
+    (layout,) = bundle.layouts
+    cases = tuple(replace(case, synthetic=case.name == "synthetic") for case in layout.cases)
+    whole = replace(bundle, layouts=(replace(layout, cases=cases),))
+    (table,) = tables_of(whole, "error-bars").values()
+    assert [*table["value"]] == [1.0, 2.0]
+    caption = describe_figure(whole, "small", "error-bars", table)
+    assert ", synthetic, generated motion (synthetic). Large markers" in caption
+
+
 @each_kind
 def test_the_table_is_read_back_from_its_file(whole, kind, tmp_path):
     for name, table in tables_of(whole, kind).items():
