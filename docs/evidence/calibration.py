@@ -4,7 +4,6 @@
 
     python docs/evidence/calibration.py walkers   # training walkers, each left out in turn
     python docs/evidence/calibration.py new       # walkers and other motions of no task's choice
-    python docs/evidence/calibration.py best-of   # best-of beside its candidates
     python docs/evidence/calibration.py left-out  # Gaussian processes before and after calibration
     python docs/evidence/calibration.py gaps      # the same processes in gaps of a limb
 
@@ -34,14 +33,11 @@ from mocapbench.baselines import (
     LDS,
     MOA,
     MOHGP,
-    BestOf,
     Calibrated,
     CyclicAlignment,
     FrameImputer,
     GPIndependent,
     LMCIndependent,
-    MakimaImputer,
-    PchipImputer,
     PoseKriging,
 )
 from mocapbench.benchmark import ImputeProblem
@@ -103,7 +99,6 @@ GAP_FILLING: Mapping[str, Callable[[], FrameImputer]] = {
 }
 OTHER_SEED = 7
 WALKS = "02_01 02_02 39_01 39_02 07_03 07_04 08_04 16_22 16_31 16_32 07_06 08_03 08_06 16_16"
-OTHERS = "10_01 10_02 10_03 16_01 16_03 16_08 16_11 16_17 16_31 16_32 64_05 64_10 64_16 64_20"
 
 
 def training() -> list[Recording]:
@@ -156,18 +151,6 @@ def new_walkers() -> None:
             report(f"{name} {trial}", model, list(windows(test, train, 4)))
 
 
-def best_of() -> None:
-    """Print the scores of `best-of` beside those of pose-kriging and an interpolation."""
-    walks, archive = training(), bench.archive_at()
-    tests = [(walk, [other for other in walks if other is not walk]) for walk in walks]
-    others = [gpdm_features(archive.recording(f"cmu:{trial}")) for trial in OTHERS.split()]
-    tests += [(other, walks) for other in others if len(other.times) >= N_TEST_FRAMES]
-    for test, train in tests:
-        for model in (BestOf(), PoseKriging(), PchipImputer(), MakimaImputer()):
-            fitted, problems = model.fit(train), list(windows(test, train, 6))
-            report(f"{type(model).__name__} {test.name}", fitted, problems)
-
-
 def pose_problems(task: str, named: str, n_folds: int) -> Iterator[ImputeProblem]:
     """Yield problems of a task with another root seed than the benchmark."""
     archive = bench.archive_at()
@@ -203,7 +186,6 @@ def compare_variances(model: Calibrated, problem: ImputeProblem) -> list[float]:
 COMMANDS: Mapping[str, Callable[[], None]] = {
     "walkers": walkers,
     "new": new_walkers,
-    "best-of": best_of,
     "left-out": partial(compare_models, LEFT_OUT, PROCESSES),
     "gaps": partial(compare_models, GAPS, GAP_FILLING),
 }
