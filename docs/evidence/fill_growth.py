@@ -27,7 +27,7 @@ KINDS = {
     "channel-kriging": ("joints", "limb"),
     "marker-kriging": ("markers", "limb"),
 }
-SIZES = ((600, 0), (600, 2), (10_000, 0), (30_000, 0), (100_000, 0))
+SIZES = ((600, 0), (600, 2), (10_000, 0), (100_000, 0))
 """Frames, and recordings beside."""
 LONGEST, MEMORY = 7200.0, 16 * 2**30
 """Seconds and bytes that a fill may take."""
