@@ -13,7 +13,7 @@ import pytest
 
 from mocapbench.reports import latex_text, markdown_text, paper_tables
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.export.latex import escape_latex, table_latex
+from mocapbench.reports.export.latex import escape_latex, figure_latex, table_latex
 from mocapbench.reports.export.page_width import fit_page
 from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.scores.table import score_table
@@ -178,8 +178,10 @@ def test_it_compiles_in_a_minimal_document_and_no_line_is_too_long(bundle, small
     texts = []
     for made, tasks in ((bundle, TASKS), (hostile, ["small"])):
         texts.append(latex_text(paper_tables(made, tasks)[1], made))
+    texts.extend(figure_latex("a_1-b.pdf", name, f"figure-{n}") for n, name in enumerate(names))
     (tmp_path / "tables.tex").write_text("\n".join(texts), encoding="utf-8")
-    begin = "\\documentclass{article}\n\\usepackage{booktabs}\n\\begin{document}\n"
+    packages = "\\usepackage{booktabs}\n\\usepackage[demo]{graphicx}"  # demo: needs no files
+    begin = f"\\documentclass{{article}}\n{packages}\n\\begin{{document}}\n"
     (tmp_path / "paper.tex").write_text(f"{begin}\\input{{tables}}\n\\end{{document}}\n")
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, check=False, timeout=120)
