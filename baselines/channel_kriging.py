@@ -32,8 +32,8 @@ __all__ = ["ChannelKriging"]
 _OTHERS = 1000
 """Frames of other recordings to learn and to predict from.
 
-Three thousand take two to three times as long, and err more where they are of strangers
-(`docs/evidence/channels.py strangers`).
+Three thousand take two to three times as long, and are not shown to err less
+(`docs/results/people.md`).
 """
 
 
@@ -63,7 +63,8 @@ class ChannelKriging(Imputer, Inductive):
 
     Time is counted in frames. The model has no parameters to
     choose: the medians of their priors, the ridge and the window are those with which limbs were
-    filled best in recordings that are in no test (``docs/results/filling.md``).
+    filled best in recordings that are in no test; ``docs/results/people.md`` says what each part
+    earns over thirty people.
 
     Attributes
     ----------

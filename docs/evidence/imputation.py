@@ -2,15 +2,14 @@
 
 ::
 
-    python docs/evidence/imputation.py walkers # pose-kriging, each training walker left out in turn
     python docs/evidence/imputation.py tasks   # both on the tasks themselves, with seconds
     python docs/evidence/imputation.py frames  # channel-kriging, its learning frames drawn anew
     python docs/evidence/imputation.py headings # pose-kriging, the tests' motion turned about
     python docs/evidence/imputation.py others  # pose-kriging, walks of people who are not in it
     python docs/evidence/imputation.py many    # pose-kriging, taught by all walks, or by strangers
 
-All but `walkers` use tests, those of `missing-frames` and `subject-35-missing` or walks of people
-who are in no training, which choose nothing.
+All use tests, those of `missing-frames` and `subject-35-missing` or walks of people who are in no
+training, which choose nothing.
 """
 
 from __future__ import annotations
@@ -20,7 +19,6 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import product
 from operator import eq
 from unittest.mock import patch
 
@@ -33,9 +31,6 @@ from mocapbench.baselines.kriging import described_frames
 from mocapbench.benchmark import METRICS, TASKS, Address, ImputeProblem, Seeds
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.tasks.missing_frames import (
-    FIRST_HIDDEN,
-    GROUPS,
-    N_HIDDEN,
     N_TEST_FRAMES,
     N_WINDOWS,
     TESTS,
@@ -47,84 +42,16 @@ from mocapbench.datasets import (
     Recording,
     RecordingUnavailable,
     gpdm_features,
-    one_based_frames,
     read_people,
     subject_of,
 )
-from mocapbench.metrics import Imputation, coverage_95, rms_per_frame
+from mocapbench.metrics import Imputation
 from mocapbench.metrics.statistics import mean_interval
 
 Array = NDArray[np.float64]
 
-STARTS, WINDOWS = (0, 10, 20), (0, 3, 6, 9, 11)
-"""Where fifty frames of a training walker begin, and which of the task's gaps are hidden there."""
-
-
 SIX = ("35_03", "16_21", "07_01", "07_02", "08_01", "08_02")
 """The rows of the task, six of eight, over which the page has means."""
-
-
-def plain(model: PoseKriging) -> PoseKriging:
-    """Return a fitted model without mirror images."""
-    n_walkers = len(model.matchers_) // len(model.symmetries_)
-    model.symmetries_, model.matchers_ = model.symmetries_[:1], model.matchers_[:n_walkers]
-    return model
-
-
-def whole(model: PoseKriging) -> PoseKriging:
-    """Return a fitted model as it is."""
-    return model
-
-
-WALKERS: Mapping[str, tuple[Callable[[PoseKriging], PoseKriging], dict[str, float]]] = {
-    "one state a frame, no mirror image": (plain, {"steps": 1}),
-    "four states a frame": (plain, {}),
-    "... and mirror images of walkers": (whole, {"symmetry": 0.0}),
-    "... and of residuals, 0.5": (whole, {"symmetry": 0.5}),
-    "... 0.8, the default": (whole, {}),
-    "... 0.9": (whole, {"symmetry": 0.9}),
-    "default, one state a frame": (whole, {"steps": 1}),
-    "default, two states a frame": (whole, {"steps": 2}),
-    "default, smoothness 5": (whole, {"smoothness": 5.0}),
-    "default, smoothness 20": (whole, {"smoothness": 20.0}),
-    "default, pose_variance 3": (whole, {"pose_variance": 3.0}),
-    "default, pose_variance 12": (whole, {"pose_variance": 12.0}),
-    "default, pose_lengthscale 0.7": (whole, {"pose_lengthscale": 0.7}),
-    "default, pose_lengthscale 1.4": (whole, {"pose_lengthscale": 1.4}),
-    "default, time_lengthscale 2": (whole, {"time_lengthscale": 2.0}),
-    "default, time_lengthscale 8": (whole, {"time_lengthscale": 8.0}),
-}
-
-
-def left_out() -> Iterator[tuple[list[Recording], list[ImputeProblem]]]:
-    """Yield the other training walkers, and gaps in the one that is left out."""
-    archive = bench.archive_at()
-    walks = [
-        gpdm_features(one_based_frames(archive.recording(uri), *TRAINING[uri]))
-        for uri in GROUPS["three-walkers"]
-    ]
-    for test in walks:
-        train = [walk for walk in walks if walk is not test]
-        problems = []
-        for start, window in product(STARTS, WINDOWS):
-            part = test.frames(np.arange(start, start + N_TEST_FRAMES))
-            mask = np.zeros(part.values.shape, dtype=bool)
-            mask[FIRST_HIDDEN + window : FIRST_HIDDEN + window + N_HIDDEN] = True
-            problems.append(ImputeProblem.of_one(part, mask, train, seen_in_fit=False))
-        yield train, problems
-
-
-def walkers() -> None:
-    """Print error and coverage of `pose-kriging` and its variants."""
-    turns = list(left_out())
-    for name, (change, parameters) in WALKERS.items():
-        rows = []
-        for train, problems in turns:
-            model = change(PoseKriging().set_params(**parameters).fit(train))
-            outcomes = [_outcome(problem, model) for problem in problems]
-            rows.append([[m(o).value for m in (rms_per_frame, coverage_95)] for o in outcomes])
-        each, coverage = np.mean(rows, axis=(1,))[:, 0], np.mean(rows, axis=(0, 1))[1]
-        print(f"{name:36} {each.mean():6.2f} {np.round(each, 1)} {coverage:.3f}", flush=True)
 
 
 def _outcome(problem: ImputeProblem, model: FrameImputer) -> Imputation:
@@ -284,7 +211,6 @@ def _mean_scores(model: FrameImputer, problems: Sequence[ImputeProblem], *names:
 
 
 COMMANDS: Mapping[str, Callable[[], None]] = {
-    "walkers": walkers,
     "tasks": tasks,
     "frames": frames,
     "headings": headings,
