@@ -23,6 +23,15 @@ from mocapbench.datasets import Recording
 
 __all__ = ["MarkerKriging"]
 
+_STEADIEST = 2e-4
+"""Least standard deviation of a distance, as a share of the largest mean distance.
+
+Joints of a skeleton keep theirs exactly: those next to a hidden one would count alone, and where it
+turns about them stay unknown. In recordings of 24 people that no task tests, errors are 40 % less
+for five joints and 29 % less for one than with 1e-6; 1e-4 and 3e-4 are as good. On skin, distances
+vary more.
+"""
+
 
 class MarkerKriging(Imputer, Inductive):
     r"""Tell where a hidden marker is from the shape of the markers around it.
@@ -158,7 +167,7 @@ class MarkerKriging(Imputer, Inductive):
         places = [each.values[:, self.markers_] for each in (recording, *others)]
         shown = np.asarray(~np.isnan(places[0]).any(axis=2))
         for marker in np.flatnonzero(~shown.all(axis=0)).tolist():
-            steady = steadiness(places, marker)
+            steady = steadiness(places, marker, _STEADIEST)
             enough = shown[:, steady > 0.0].sum(axis=1) >= FEWEST
             for frames in runs(~shown[:, marker] & enough):
                 around = np.flatnonzero(shown[frames].all(axis=0) & (steady > 0.0))

@@ -20,7 +20,7 @@ _CLEARLY = 5.0
 _TINY = 1e-300
 
 
-def steadiness(recordings: Sequence[Array], marker: int) -> Array:
+def steadiness(recordings: Sequence[Array], marker: int, least: float = _ROUNDING) -> Array:
     """Return the inverse standard deviation of each marker's distance to ``marker``: (M,).
 
     It is relative to the largest one; 0 for the marker itself and for those of which no recording
@@ -32,6 +32,8 @@ def steadiness(recordings: Sequence[Array], marker: int) -> Array:
         Markers, NaN where hidden. Distances vary about their mean in each recording, which takes
         one degree of freedom.
     marker : int
+    least : float, optional
+        Standard deviations below this share of the largest mean distance count as this share.
     """
     counts, means, squares = (
         np.array(each) for each in zip(*_moments(recordings, marker), strict=True)
@@ -39,7 +41,7 @@ def steadiness(recordings: Sequence[Array], marker: int) -> Array:
     # The pooled standard deviation, each recording about its own mean.
     freedom = np.maximum(counts - 1, 0).sum(axis=0)
     deviations = np.sqrt(squares.sum(axis=0) / np.maximum(freedom, 1))
-    steady = 1.0 / np.maximum(deviations, _ROUNDING * means.max(initial=_TINY))
+    steady = 1.0 / np.maximum(deviations, least * means.max(initial=_TINY))
     steady[freedom == 0] = 0.0
     return np.asarray(steady / steady.max(initial=_TINY))
 
