@@ -68,11 +68,11 @@ class MarkerKriging(Imputer, Inductive):
 
     Notes
     -----
-    With rotations :math:`R_t` and centres :math:`c_t` of the body (`RigidBody` has the weights),
-    the marker at :math:`x(t)` is seen at :math:`\xi(t) = (x(t) - c_t) R_t^\top`. With the shapes
-    :math:`\phi_t` that the markers around have as seen from the body, and by how much it is another
-    just before and after, :math:`\chi_t`, its covariance between frames t and t' of recordings r
-    and r' is
+    With rotations :math:`R_t` and centres :math:`c_t` of the body (`RigidBody` has the weights; a
+    distance counts here as varying by a five-thousandth of the largest one at least), the marker at
+    :math:`x(t)` is seen at :math:`\xi(t) = (x(t) - c_t) R_t^\top`. With the shapes :math:`\phi_t`
+    that the markers around have as seen from the body, and by how much it is another just before
+    and after, :math:`\chi_t`, its covariance between frames t and t' of recordings r and r' is
 
     .. math::
 
