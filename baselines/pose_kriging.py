@@ -110,9 +110,8 @@ class PoseKriging(FrameImputer, Inductive):
     The defaults gave nearly the least error when each training walker of ``missing-frames`` was
     held out in turn; ``docs/results/people.md`` says what each part earns over thirty people. Time
     is counted in frames, of which 30 per second are used
-    (``mocapbench.baselines.kriging.frame_rates``). Where channels have
-    several units, degrees and radians count as degrees, and mm, cm and m as the CMU database's unit
-    of length, 5.64 cm.
+    (``mocapbench.baselines.kriging.frame_rates``). Where channels have several units, degrees and
+    radians count as degrees, and mm, cm and m as the CMU database's unit of length, 5.64 cm.
 
     Parameters
     ----------

@@ -72,7 +72,7 @@ def tasks() -> None:
 
 def _score(task: str, case: str, model: FrameImputer, names: Sequence[str], n_folds: int) -> None:
     try:
-        problems = [_posed(task, case, fold) for fold in range(n_folds)]
+        problems = [load_problem(task, case, fold) for fold in range(n_folds)]
     except RecordingUnavailable:
         return
     began = time.process_time()
@@ -81,7 +81,8 @@ def _score(task: str, case: str, model: FrameImputer, names: Sequence[str], n_fo
     print(f"{task:20} {case:24} {np.round(means, 3)} {seconds:.2f} s", flush=True)
 
 
-def _posed(task: str, case: str, fold: int) -> ImputeProblem:
+def load_problem(task: str, case: str, fold: int) -> ImputeProblem:
+    """Return the problem of a fold of a case."""
     found = TASKS.get(task).case(case)
     address = Address(task, TASKS.get(task).version, found.problem_name, fold)
     problem = found.problem(Seeds(0, address), bench.archive_at())
@@ -92,7 +93,7 @@ def _posed(task: str, case: str, fold: int) -> ImputeProblem:
 def frames() -> None:
     """Print the errors of `ChannelKriging` with eight other choices of its learning frames."""
     for part in ("right leg", "upper body"):
-        problem = _posed("subject-35-missing", part, 0)
+        problem = load_problem("subject-35-missing", part, 0)
         rows = []
         for seed in range(8):
             shift = np.random.default_rng(seed)
@@ -114,7 +115,9 @@ def headings() -> None:
     """Print the scores of `PoseKriging` where the recording to fill is turned."""
     names = [f"{row.replace('_', '-')} three-walkers" for row in SIX]
     for degrees in (0.0, 90.0, 180.0):
-        problems = [_posed("missing-frames", name, fold) for name in names for fold in range(12)]
+        problems = [
+            load_problem("missing-frames", name, fold) for name in names for fold in range(12)
+        ]
         scores = []
         for problem in problems:
             moved = _rotate_problem(problem, degrees)
@@ -131,7 +134,7 @@ def _rotate_problem(problem: ImputeProblem, degrees: float) -> ImputeProblem:
 
 def others() -> None:
     """Print scores of `PoseKriging` and of ``makima`` on walks of people whom the task lacks."""
-    training = _posed("missing-frames", "35-03 three-walkers", 0).train
+    training = load_problem("missing-frames", "35-03 three-walkers", 0).train
     model, makima = PoseKriging(), MakimaImputer()
     scores: dict[str, list[Array]] = {}
     for person, uri in _walks_of_others():

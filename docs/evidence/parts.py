@@ -21,9 +21,9 @@ from typing import Any
 from unittest.mock import patch
 
 import numpy as np
+from imputation import load_problem
 from numpy.typing import NDArray
 
-from mocapbench import benchmark as bench
 from mocapbench.baselines import (
     ChannelKriging,
     FrameImputer,
@@ -33,7 +33,7 @@ from mocapbench.baselines import (
 )
 from mocapbench.baselines.kriging import channel_process, held_out_stretches, stacked, stances
 from mocapbench.baselines.kriging.mirror_images import Image, find_symmetries
-from mocapbench.benchmark import METRICS, TASKS, Address, ImputeProblem, Seeds
+from mocapbench.benchmark import METRICS, TASKS, ImputeProblem
 from mocapbench.datasets import Recording, RecordingUnavailable
 from mocapbench.metrics.statistics import mean_interval
 
@@ -136,13 +136,10 @@ def main(name: str) -> None:
 
 def list_problems(task: str, name: str) -> Mapping[str, list[ImputeProblem]]:
     """Return the problems of each person of a case whose recordings are at hand."""
-    found, problems = TASKS.get(task).case(name), defaultdict(list)
-    for fold, person in enumerate(found.subjects):
-        address = Address(task, TASKS.get(task).version, found.problem_name, fold)
+    problems = defaultdict(list)
+    for fold, person in enumerate(TASKS.get(task).case(name).subjects):
         with suppress(RecordingUnavailable):
-            problem = found.problem(Seeds(0, address), bench.archive_at())
-            assert isinstance(problem, ImputeProblem)
-            problems[person].append(problem)
+            problems[person].append(load_problem(task, name, fold))
     return problems
 
 
